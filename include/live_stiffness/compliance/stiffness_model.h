@@ -1,0 +1,106 @@
+#pragma once
+// The incremental nonlinear Cosserat compliance model of Shi et al.: chamber pressures and tip wrench in, tip pose and
+// 6x6 compliance out. The paper's four models are two switches:
+//
+//                          ModelOptions::external_loads = false      true
+//   stepping = kLinear              LPCC                             LCM
+//   stepping = kFixedStep           NPCC                             NCM
+//
+// A scene without weight and without a tip wrench takes the closed form in all four; the boundary value solver is
+// touched only when something external acts.
+
+#include <string>
+
+#include "live_stiffness/compliance/material_compliance.h"
+#include "live_stiffness/rod/statics.h"
+
+namespace live_stiffness {
+
+struct ModelOptions {
+  bool external_loads = true;  // false: weight and tip wrench are ignored (piecewise constant curvature)
+  Stepping stepping = Stepping::kFixedStep;
+  double pressure_step = 15000.0;  // largest step of kFixedStep, Pa
+  double accuracy = 1e-9;          // relative, of pose and compliance, by which elements are chosen; 1e-13 to 1e-2
+};
+
+enum class SolveCode {
+  kOk = 0,
+  kInvalidInput = 1,  // wrong channel count, or a value that is not finite or not physical
+  kOutOfRange = 2,    // the pressures stretch a section beyond the range where it has positive area
+  kNotConverged = 3,  // no equilibrium found within the bound on iterations
+};
+
+// Why a solve failed, without allocation; text() is for people.
+struct SolveStatus {
+  SolveCode code = SolveCode::kOk;
+  int index = -1;      // channel (kInvalidInput) or segment (kOutOfRange) concerned; -1: none
+  double value = 0.0;  // offending value: pressure, Pa; stretch; residual, rad
+
+  bool ok() const { return code == SolveCode::kOk; }
+};
+
+// Name of a code as programs print it: "ok", "invalid_input", "out_of_range", "not_converged".
+const char* codeName(SolveCode code);
+
+struct StiffnessSolution {
+  SolveStatus status;  // unless ok, nothing below holds
+  int iterations = 0;  // passes over the chain; 0: closed form
+  double numerical_error = 0.0;  // estimated relative error of pose and compliance, an upper estimate
+  Pose X_BT;                     // tip point, m
+  Matrix6 compliance = Matrix6::Zero();           // tangent, of T under a dead wrench at T, base axes
+  Matrix6 material_compliance = Matrix6::Zero();  // (10) about T, base axes
+};
+
+// Everything a solve writes to; one per thread, reused. Tied to the model it was made by.
+class StiffnessWorkspace {
+ public:
+  const Backbone& backbone() const { return backbone_; }
+  // True if the last solve was a boundary value problem, false if it took the closed form.
+  bool loaded() const { return loaded_; }
+  // Number of boundary value problems solved so far.
+  long staticsSolves() const { return statics_solves_; }
+  const StaticsSolver& statics() const { return statics_; }
+  // Forgets the last solution, so that the next solve starts cold.
+  void reset() { statics_.reset(); }
+
+ private:
+  friend class StiffnessModel;
+  StiffnessWorkspace(const Scene& scene, double accuracy) : backbone_(scene), statics_(scene, accuracy) {}
+
+  Backbone backbone_;
+  StaticsSolver statics_;
+  bool loaded_ = false;
+  long statics_solves_ = 0;
+};
+
+// Immutable; share it between threads, one workspace each. Must outlive its workspaces.
+class StiffnessModel {
+ public:
+  // Throws ConfigurationError on bad options or a scene without segments.
+  StiffnessModel(Scene scene, ModelOptions options);
+  StiffnessModel(const StiffnessModel&) = delete;  // workspaces refer to its scene
+  StiffnessModel& operator=(const StiffnessModel&) = delete;
+
+  const Scene& scene() const { return scene_; }
+  const ModelOptions& options() const { return options_; }
+  StiffnessWorkspace makeWorkspace() const { return {scene_, options_.accuracy}; }
+
+  // Solves for gauge pressures (Pa, one per chamber, base to tip; at least -1 atm) and a dead wrench at T (base axes).
+  // Never throws and never allocates; a failure is a status.
+  StiffnessSolution solve(PressuresRef pressures, const Wrench& tip_wrench, StiffnessWorkspace& workspace) const;
+
+  // Station of the last successful solve in the workspace. segment: 0 to segmentCount() - 1; fraction: 0 to 1.
+  Station station(const StiffnessWorkspace& workspace, int segment, double fraction) const;
+
+  // A status in words, with the offending value, its legal range and the way out.
+  std::string describe(const SolveStatus& status) const;
+
+ private:
+  SolveStatus checkInput(PressuresRef pressures, const Wrench& tip_wrench) const;
+  SolveStatus stepLoads(PressuresRef pressures, Backbone& backbone) const;
+
+  Scene scene_;
+  ModelOptions options_;
+};
+
+}  // namespace live_stiffness

@@ -1,0 +1,55 @@
+#pragma once
+// Boundary value problem of a scene under dead loads (weight, tip wrench), by shooting on the base moment.
+//
+// For dead loads the force n(s) is known in advance (weights beyond s plus the tip force), so only the base moment m0
+// is unknown: three unknowns for any number of segments and links. The residual is the moment left over at T.
+
+#include "live_stiffness/rod/backbone.h"
+
+namespace live_stiffness {
+
+struct StaticsReport {
+  bool converged = false;
+  int iterations = 0;          // passes over the chain, all attempts together; at most kMaxIterations
+  double residual = 0.0;       // of the tip moment, as bending of the softest segment over its length, rad
+  double truncation = 0.0;     // estimated relative error of discretisation
+};
+
+class StaticsSolver {
+ public:
+  static constexpr int kMaxIterations = 400;
+
+  // The scene must outlive the solver. accuracy: relative, for the choice of the number of elements.
+  StaticsSolver(const Scene& scene, double accuracy);
+
+  // Solves from backbone.rest. Starts from the last solution unless reset() was called; falls back to the unloaded
+  // shape, damped steps and load continuation. On success backbone holds the shape and `tangent` can be read.
+  StaticsReport solve(const DeadLoads& loads, Backbone& backbone);
+
+  // Compliance of T under a dead wrench at T (base axes), by the derivative of the loaded equilibrium: tangent, 6x6.
+  const Matrix6& tangentCompliance() const { return tangent_; }
+  // Total moment at the base, N m, base axes.
+  const Vector3& baseMoment() const { return base_moment_; }
+
+  void reset() { warm_ = false; }
+
+ private:
+  bool march(const DeadLoads& loads, const Vector3& base_moment, Backbone& backbone, Vector3& residual);
+  StateColumns tipColumns(const DeadLoads& loads, const Backbone& backbone) const;
+  bool newton(const DeadLoads& loads, Backbone& backbone, int max_iterations, StaticsReport& report);
+  bool continuation(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
+  void placeFresh(const DeadLoads& loads, Backbone& backbone);
+  void chooseElements(const DeadLoads& loads, Backbone& backbone) const;
+  bool refine(Backbone& backbone, StaticsReport& report) const;
+  double bendingOf(const Vector3& moment, const Backbone& backbone) const;
+
+  const Scene& scene_;
+  double accuracy_;
+  Vector3 base_moment_ = Vector3::Zero();
+  Matrix3 residual_inverse_ = Matrix3::Zero();  // of d residual / d base moment
+  Matrix6 tangent_ = Matrix6::Zero();
+  bool warm_ = false;
+  bool nodes_hold_guess_ = false;
+};
+
+}  // namespace live_stiffness

@@ -1,0 +1,59 @@
+#include "live_stiffness/checks.h"
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace live_stiffness {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+std::string joined(const std::string& subject, const std::vector<std::string>& faults) {
+  std::ostringstream text;
+  text << subject << ": " << faults.size() << (faults.size() == 1 ? " fault" : " faults");
+  for (const std::string& fault : faults) text << "\n  - " << fault;
+  return text.str();
+}
+
+}  // namespace
+
+ConfigurationError::ConfigurationError(const std::string& subject, std::vector<std::string> faults)
+    : std::runtime_error(joined(subject, faults)), faults_(std::move(faults)) {}
+
+bool Range::contains(double value) const {
+  const bool above = low_open ? value > low : value >= low;
+  const bool below = high_open ? value < high : value <= high;
+  return std::isfinite(value) && above && below;
+}
+
+std::string Range::text() const {
+  const bool has_low = std::isfinite(low);
+  const bool has_high = std::isfinite(high);
+  if (!has_low && !has_high) return "any finite number";
+  const std::string above = (low_open ? "> " : ">= ") + numberText(low);
+  const std::string below = (high_open ? "< " : "<= ") + numberText(high);
+  if (!has_high) return above;
+  if (!has_low) return below;
+  return above + " and " + below;
+}
+
+Range Range::finite() { return {-kInfinity, kInfinity, true, true}; }
+Range Range::positive() { return {0.0, kInfinity, true, true}; }
+Range Range::nonnegative() { return {0.0, kInfinity, false, true}; }
+
+void FaultList::check(const std::string& name, double value, const Range& range) {
+  if (!range.contains(value)) add(name + " = " + numberText(value) + ": must be " + range.text());
+}
+
+void FaultList::throwIfAny() const {
+  if (!faults_.empty()) throw ConfigurationError(subject_, faults_);
+}
+
+std::string numberText(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+}  // namespace live_stiffness

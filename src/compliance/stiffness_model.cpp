@@ -1,0 +1,117 @@
+#include "live_stiffness/compliance/stiffness_model.h"
+
+#include <cmath>
+#include <limits>
+
+#include "live_stiffness/checks.h"
+#include "live_stiffness/rod/kinematics.h"
+
+namespace live_stiffness {
+
+const char* codeName(SolveCode code) {
+  switch (code) {
+    case SolveCode::kOk: return "ok";
+    case SolveCode::kInvalidInput: return "invalid_input";
+    case SolveCode::kOutOfRange: return "out_of_range";
+    case SolveCode::kNotConverged: return "not_converged";
+  }
+  return "unknown";
+}
+
+StiffnessModel::StiffnessModel(Scene scene, ModelOptions options) : scene_(std::move(scene)), options_(options) {
+  FaultList faults("stiffness model");
+  if (scene_.segmentCount() == 0) faults.add("chain: must hold at least one segment");
+  faults.check("pressure_step_pa", options_.pressure_step, {100.0, 1e7});
+  faults.check("accuracy", options_.accuracy, {1e-13, 1e-2});
+  faults.throwIfAny();
+}
+
+SolveStatus StiffnessModel::checkInput(PressuresRef pressures, const Wrench& tip_wrench) const {
+  if (pressures.size() != scene_.chamberCount())
+    return {SolveCode::kInvalidInput, -1, static_cast<double>(pressures.size())};
+  for (int k = 0; k < pressures.size(); ++k)
+    if (!(pressures[k] >= -kAtmospherePa) || !std::isfinite(pressures[k]))
+      return {SolveCode::kInvalidInput, k, pressures[k]};
+  if (!tip_wrench.allFinite()) return {SolveCode::kInvalidInput, scene_.chamberCount(), std::nan("")};
+  return {};
+}
+
+SolveStatus StiffnessModel::stepLoads(PressuresRef pressures, Backbone& backbone) const {
+  const double largest = pressures.size() > 0 ? pressures.cwiseAbs().maxCoeff() : 0.0;
+  if (largest > 1e4 * options_.pressure_step) return {SolveCode::kOutOfRange, -1, largest};
+  const int steps = stepCount(largest, options_.pressure_step);
+  SolveStatus status;
+  int first = 0;
+  walk(
+      scene_,
+      [&](int index, const Segment& segment) {
+        const int count = segment.section.chambers.count();
+        backbone.rest[index] = restState(segment.section, pressures.segment(first, count), options_.stepping, steps);
+        if (!backbone.rest[index].valid && status.ok())
+          status = {SolveCode::kOutOfRange, index, backbone.rest[index].stretch};
+        first += count;
+      },
+      [](const Link&) {});
+  return status;
+}
+
+StiffnessSolution StiffnessModel::solve(PressuresRef pressures, const Wrench& tip_wrench,
+                                        StiffnessWorkspace& workspace) const {
+  StiffnessSolution solution;
+  solution.status = checkInput(pressures, tip_wrench);
+  if (!solution.status.ok()) return solution;
+  Backbone& backbone = workspace.backbone_;
+  solution.status = stepLoads(pressures, backbone);
+  if (!solution.status.ok()) return solution;
+
+  workspace.loaded_ = options_.external_loads && (scene_.hasWeight() || !tip_wrench.isZero(0.0));
+  if (workspace.loaded_) {
+    ++workspace.statics_solves_;
+    const DeadLoads loads{scene_.gravity.value_or(Vector3::Zero()), tip_wrench};
+    const StaticsReport report = workspace.statics_.solve(loads, backbone);
+    solution.iterations = report.iterations;
+    if (!report.converged) {
+      solution.status = {SolveCode::kNotConverged, -1, report.residual};
+      return solution;
+    }
+    solution.numerical_error = report.truncation + report.residual;
+  } else {
+    workspace.statics_.reset();
+    chooseUnloadedElements(scene_, backbone);
+    placeUnloaded(scene_, backbone);
+  }
+  solution.numerical_error += 1e-14;  // rounding
+  solution.X_BT = backbone.X_BT;
+  solution.material_compliance = tipMaterialCompliance(backbone);
+  // Without external load the two are the same matrix.
+  solution.compliance = workspace.loaded_ ? workspace.statics_.tangentCompliance() : solution.material_compliance;
+  return solution;
+}
+
+Station StiffnessModel::station(const StiffnessWorkspace& workspace, int segment, double fraction) const {
+  return stationAt(workspace.backbone(), segment, fraction, workspace.loaded());
+}
+
+std::string StiffnessModel::describe(const SolveStatus& status) const {
+  const std::string value = numberText(status.value);
+  switch (status.code) {
+    case SolveCode::kOk:
+      return "ok";
+    case SolveCode::kInvalidInput:
+      if (status.index < 0)
+        return value + " pressures given, but the scene has " + std::to_string(scene_.chamberCount()) +
+               " chambers: give one gauge pressure per chamber, base to tip";
+      if (status.index >= scene_.chamberCount()) return "the tip wrench must be finite";
+      return "pressure of chamber " + std::to_string(status.index + 1) + " is " + value +
+             " Pa: must be finite and at least -101325 Pa gauge (vacuum); is it absolute, or in another unit?";
+    case SolveCode::kOutOfRange:
+      if (status.index < 0) return "largest pressure is " + value + " Pa: more than 10000 pressure steps";
+      return "segment " + std::to_string(status.index + 1) + " reaches stretch " + value +
+             ", where its section has no positive area left: lower its pressures";
+    case SolveCode::kNotConverged:
+      return "no equilibrium found; bending left over " + value + " rad: lower the loads, or check the scene";
+  }
+  return "unknown status";
+}
+
+}  // namespace live_stiffness

@@ -1,0 +1,36 @@
+#include "live_stiffness/lie/se3.h"
+
+namespace live_stiffness {
+
+Pose expSe3(const Vector3& v, const Vector3& u, double s) {
+  const Vector3 w = s * u;
+  const double x = w.squaredNorm();
+  const Vector3 w_cross_v = w.cross(v);
+  return {expSo3(w), s * (v + angleB(x) * w_cross_v + angleC(x) * w.cross(w_cross_v))};
+}
+
+Matrix6 wrenchAdjoint(const Pose& X_AB) {
+  Matrix6 adjoint;
+  adjoint << X_AB.R, Matrix3::Zero(), hat(X_AB.p) * X_AB.R, X_AB.R;
+  return adjoint;
+}
+
+Matrix6 twistShift(const Vector3& offset) {
+  Matrix6 shift = Matrix6::Identity();
+  shift.topRightCorner<3, 3>() = -hat(offset);
+  return shift;
+}
+
+Matrix6 shiftCompliance(const Matrix6& C, const Vector3& offset) {
+  const Matrix6 H = twistShift(offset);
+  return H * C * H.transpose();
+}
+
+Matrix6 complianceInBodyAxes(const Matrix6& C, const Matrix3& R) {
+  Matrix6 turn = Matrix6::Zero();
+  turn.topLeftCorner<3, 3>() = R;
+  turn.bottomRightCorner<3, 3>() = R;
+  return turn.transpose() * C * turn;
+}
+
+}  // namespace live_stiffness

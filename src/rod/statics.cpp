@@ -1,0 +1,287 @@
+#include "live_stiffness/rod/statics.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "live_stiffness/rod/kinematics.h"
+
+namespace live_stiffness {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kResidualGoal = 1e-12;     // rad, see StaticsReport::residual
+constexpr double kResidualAccepted = 1e-9;  // rad, when rounding stops it short of the goal
+
+// Force at the base of the chain: everything beyond it.
+Vector3 baseForce(const Scene& scene, const DeadLoads& loads) {
+  double mass = scene.tip_mass;
+  walk(
+      scene, [&](int, const Segment& segment) { mass += segment.mass(); },
+      [&](const Link& link) { mass += link.mass; });
+  return linear(loads.tip) + mass * loads.gravity;
+}
+
+Vector3 lineLoad(const Segment& segment, const RestState& rest, const DeadLoads& loads) {
+  return segment.section.linearDensity() / rest.stretch * loads.gravity;
+}
+
+}  // namespace
+
+StaticsSolver::StaticsSolver(const Scene& scene, double accuracy) : scene_(scene), accuracy_(accuracy) {}
+
+// Shoots from the base to T. residual: moment at T that nothing balances, N m.
+bool StaticsSolver::march(const DeadLoads& loads, const Vector3& base_moment, Backbone& backbone, Vector3& residual) {
+  Pose X;
+  Vector3 n = baseForce(scene_, loads);
+  Vector3 m = base_moment;
+  auto element = backbone.elements.begin();
+  bool converged = true;
+  walk(
+      scene_,
+      [&](int index, const Segment& segment) {
+        const RestState& rest = backbone.rest[index];
+        const Vector3 line_load = lineLoad(segment, rest, loads);
+        const int count = backbone.element_count[index];
+        for (int k = 0; k < count && converged; ++k, ++element) {
+          element->segment = index;
+          element->length = rest.stretch * segment.length / count;
+          element->start = k * element->length;
+          element->X_start = X;
+          element->n_start = n;
+          element->m_start = m;
+          element->line_load = line_load;
+          if (!nodes_hold_guess_) resetGuess(rest, *element);
+          converged = integrate(rest, *element);
+          X = element->X_end;
+          n = element->n_end;
+          m = element->m_end;
+        }
+      },
+      [&](const Link& link) {
+        const Vector3 along = link.length * X.R.col(2);
+        const Vector3 weight = link.mass * loads.gravity;
+        n -= weight;
+        m -= along.cross(n) + 0.5 * along.cross(weight);
+        X.p += along;
+      });
+  nodes_hold_guess_ = converged;
+  if (!converged) return false;
+  const Vector3 offset = X.R * scene_.tip_offset;
+  backbone.X_BT = {X.R, X.p + offset};
+  residual = m - offset.cross(n) - angular(loads.tip);
+  return residual.allFinite();
+}
+
+// Columns [base moment, tip force] of the state at T; .m holds those of the residual.
+StateColumns StaticsSolver::tipColumns(const DeadLoads& loads, const Backbone& backbone) const {
+  StateColumns columns;
+  columns.m.leftCols<3>().setIdentity();
+  columns.n.rightCols<3>().setIdentity();
+  auto element = backbone.elements.begin();
+  const auto along_rigid = [&](const Vector3& along, const Vector3& n) {
+    const Matrix3X6 moved = -hat(along) * columns.phi;  // phi x along
+    columns.p += moved;
+    columns.m += hat(n) * moved - hat(along) * columns.n;
+  };
+  Matrix3 R = Matrix3::Identity();
+  Vector3 n = baseForce(scene_, loads);
+  walk(
+      scene_,
+      [&](int index, const Segment&) {
+        for (int k = 0; k < backbone.element_count[index]; ++k, ++element)
+          propagate(backbone.rest[index], *element, columns);
+        R = std::prev(element)->X_end.R;
+        n = std::prev(element)->n_end;
+      },
+      [&](const Link& link) {
+        const Vector3 weight = link.mass * loads.gravity;
+        n -= weight;
+        along_rigid(link.length * R.col(2), n + 0.5 * weight);  // the weight has half the lever
+      });
+  along_rigid(R * scene_.tip_offset, n);
+  return columns;
+}
+
+double StaticsSolver::bendingOf(const Vector3& moment, const Backbone& backbone) const {
+  double softest = 0.0;
+  walk(
+      scene_,
+      [&](int index, const Segment& segment) {
+        const RestState& rest = backbone.rest[index];
+        softest = std::max(softest, rest.c.bending_torsion.diagonal().maxCoeff() * rest.stretch * segment.length);
+      },
+      [](const Link&) {});
+  return softest * moment.norm();
+}
+
+bool StaticsSolver::newton(const DeadLoads& loads, Backbone& backbone, int max_iterations, StaticsReport& report) {
+  Vector3 m0 = base_moment_, accepted_m0 = m0, step, residual, accepted_residual;
+  double accepted = kInfinity, damping = 1.0;
+  bool have_inverse = warm_, inverse_is_fresh = false;
+  const auto refresh = [&] {
+    residual_inverse_ = tipColumns(loads, backbone).m.leftCols<3>().inverse();
+    have_inverse = inverse_is_fresh = true;
+  };
+  for (int i = 0; i < max_iterations && report.iterations < kMaxIterations; ++i) {
+    ++report.iterations;
+    const bool marched = march(loads, m0, backbone, residual);
+    report.residual = marched ? bendingOf(residual, backbone) : kInfinity;
+    const bool stalled = report.residual <= kResidualAccepted && report.residual >= 0.5 * accepted && inverse_is_fresh;
+    if (report.residual <= kResidualGoal || stalled) {
+      base_moment_ = m0;
+      return true;
+    }
+    if (report.residual < accepted) {
+      if (have_inverse && std::isfinite(accepted)) {
+        // Broyden's update: the inverse maps the change of residual just seen to the step just made.
+        const Vector3 change = residual_inverse_ * (residual - accepted_residual);
+        const Vector3 made = m0 - accepted_m0;
+        const double scale = made.dot(change);
+        if (std::abs(scale) > 1e-3 * made.squaredNorm())
+          residual_inverse_ += (made - change) * (made.transpose() * residual_inverse_) / scale;
+      }
+      if (!have_inverse || (report.residual > 0.1 * accepted && !stalled)) refresh();
+      else inverse_is_fresh = false;
+      accepted = report.residual;
+      accepted_m0 = m0;
+      accepted_residual = residual;
+      damping = 1.0;
+    } else if (std::isinf(accepted)) {
+      return false;  // not even the first guess can be integrated
+    } else if (!inverse_is_fresh) {
+      if (!march(loads, accepted_m0, backbone, residual)) return false;
+      refresh();
+      damping = 1.0;
+    } else {
+      damping *= 0.5;
+      if (damping < 1e-2) return false;
+      m0 = accepted_m0 + damping * step;
+      continue;
+    }
+    step = -residual_inverse_ * residual;
+    if (!step.allFinite()) return false;
+    m0 = accepted_m0 + damping * step;
+  }
+  return false;
+}
+
+bool StaticsSolver::continuation(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
+  double reached = 0.0, advance = 0.25;
+  Vector3 good = Vector3::Zero();
+  while (reached < 1.0) {
+    const double trial = std::min(1.0, reached + advance);
+    base_moment_ = reached > 0.0 ? Vector3(good * (trial / reached)) : Vector3::Zero();
+    warm_ = false;
+    if (newton(loads.scaled(trial), backbone, 12, report)) {
+      reached = trial;
+      good = base_moment_;
+      advance *= 1.5;
+    } else {
+      advance *= 0.5;
+      nodes_hold_guess_ = false;
+    }
+    if (advance < 1e-3 || report.iterations >= kMaxIterations) return false;
+  }
+  return true;
+}
+
+// The unloaded shape, and the base moment that the loads would exert on it.
+void StaticsSolver::placeFresh(const DeadLoads& loads, Backbone& backbone) {
+  placeUnloaded(scene_, backbone);
+  nodes_hold_guess_ = true;
+  warm_ = false;
+  base_moment_ = angular(loads.tip) + backbone.X_BT.p.cross(linear(loads.tip) + scene_.tip_mass * loads.gravity);
+  auto element = backbone.elements.begin();
+  Pose X;
+  walk(
+      scene_,
+      [&](int index, const Segment& segment) {
+        const Vector3 line_load = lineLoad(segment, backbone.rest[index], loads);
+        for (int k = 0; k < backbone.element_count[index]; ++k, ++element)
+          for (int i = 0; i < kStages; ++i) base_moment_ += element->weight(i) * element->X[i].p.cross(line_load);
+        X = std::prev(element)->X_end;
+      },
+      [&](const Link& link) {
+        base_moment_ += (X.p + 0.5 * link.length * X.R.col(2)).cross(link.mass * loads.gravity);
+        X.p += link.length * X.R.col(2);
+      });
+}
+
+// Elements by bending at rest and by the load number L sqrt(|n| c_bt): about what one element of order 12 carries.
+void StaticsSolver::chooseElements(const DeadLoads& loads, Backbone& backbone) const {
+  const double bending_an_element = 1.2 * std::pow(accuracy_ / 1e-9, 1.0 / (2 * kStages));
+  const double load_number_an_element = 0.8 * bending_an_element;
+  const double force = baseForce(scene_, loads).norm();
+  const double moment = angular(loads.tip).norm();
+  walk(
+      scene_,
+      [&](int index, const Segment& segment) {
+        const RestState& rest = backbone.rest[index];
+        const double length = rest.stretch * segment.length;
+        const double softness = rest.c.bending_torsion.diagonal().maxCoeff();
+        const double bending = length * (rest.curvature.norm() + softness * moment) / bending_an_element;
+        const double load = length * std::sqrt(softness * force) / load_number_an_element;
+        const double count = std::ceil(std::max(bending, load));
+        backbone.element_count[index] = static_cast<int>(std::clamp(count, 1.0, Backbone::kMaxElements / 2.0));
+      },
+      [](const Link&) {});
+}
+
+// Doubles the elements of every segment whose estimated error is above its share. False when there is none to double.
+bool StaticsSolver::refine(Backbone& backbone, StaticsReport& report) const {
+  report.truncation = 0.0;
+  bool refined = false;
+  auto element = backbone.elements.begin();
+  for (int& count : backbone.element_count) {
+    double error = 0.0;
+    for (int k = 0; k < count; ++k, ++element) error += 4.0 * element->truncation * element->truncation;
+    report.truncation += error;
+    if (error > accuracy_ && 2 * count <= Backbone::kMaxElements) {
+      count *= 2;
+      refined = true;
+    }
+  }
+  return refined;
+}
+
+StaticsReport StaticsSolver::solve(const DeadLoads& loads, Backbone& backbone) {
+  StaticsReport report;
+  chooseElements(loads, backbone);
+  do {
+    const size_t total = std::accumulate(backbone.element_count.begin(), backbone.element_count.end(), 0);
+    if (total != backbone.elements.size()) {
+      backbone.elements.resize(total);
+      nodes_hold_guess_ = false;
+    }
+    if (!warm_) placeFresh(loads, backbone);
+    report.converged = newton(loads, backbone, 20, report);
+    if (!report.converged) {
+      placeFresh(loads, backbone);
+      report.converged = newton(loads, backbone, 30, report);
+    }
+    if (!report.converged) {
+      placeFresh(loads, backbone);
+      report.converged = continuation(loads, backbone, report);
+    }
+    warm_ = report.converged;
+    if (!report.converged) return report;
+  } while (refine(backbone, report));
+
+  const StateColumns tip = tipColumns(loads, backbone);
+  residual_inverse_ = tip.m.leftCols<3>().inverse();
+  // dm0 = A^-1 (dM - B df), from the residual's columns [A, B]; C maps [df; dM] to the twist of T.
+  const Matrix3 m0_of_force = -residual_inverse_ * tip.m.rightCols<3>();
+  tangent_.topLeftCorner<3, 3>() = tip.p.rightCols<3>() + tip.p.leftCols<3>() * m0_of_force;
+  tangent_.topRightCorner<3, 3>() = tip.p.leftCols<3>() * residual_inverse_;
+  tangent_.bottomLeftCorner<3, 3>() = tip.phi.rightCols<3>() + tip.phi.leftCols<3>() * m0_of_force;
+  tangent_.bottomRightCorner<3, 3>() = tip.phi.leftCols<3>() * residual_inverse_;
+  report.converged = tangent_.allFinite();
+  warm_ = report.converged;
+  return report;
+}
+
+}  // namespace live_stiffness

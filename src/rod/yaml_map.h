@@ -1,0 +1,51 @@
+#pragma once
+// A YAML mapping whose every key must be asked for: reads values, collects faults, reports keys nobody asked for.
+
+#include <yaml-cpp/yaml.h>
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "live_stiffness/checks.h"
+#include "live_stiffness/conventions.h"
+
+namespace live_stiffness {
+
+// " (line N)" of a node, N counted from 1; empty when unknown.
+std::string lineOf(const YAML::Node& node);
+
+class YamlMap {
+ public:
+  // path: where the mapping stands, such as "chain[0].segment"; empty for the document itself.
+  YamlMap(const YAML::Node& node, std::string path, FaultList& faults);
+
+  // A number in `range`; a fault and NaN otherwise. A missing key takes the default, or is a fault without one.
+  double number(const std::string& key, const Range& range, std::optional<double> otherwise = std::nullopt);
+  // A list of finite numbers, of exactly `size` entries unless size is negative. Empty after a fault.
+  std::vector<double> numbers(const std::string& key, int size);
+  // Three finite numbers; zero after a fault.
+  Vector3 vector(const std::string& key);
+  std::string text(const std::string& key, const std::string& otherwise);
+  YAML::Node child(const std::string& key);  // undefined node when missing
+  bool has(const std::string& key) const;
+
+  // Adds a fault about the mapping itself, or about one of its keys.
+  void fault(const std::string& message);
+  void fault(const std::string& key, const std::string& message);
+  // Call when all keys have been asked for: unknown and repeated keys become faults.
+  void finish();
+
+ private:
+  std::string name(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
+  YAML::Node find(const std::string& key);
+  double readNumber(const YAML::Node& node, const std::string& name, const Range& range);
+
+  YAML::Node node_;
+  std::string path_;
+  FaultList& faults_;
+  std::set<std::string> asked_;
+};
+
+}  // namespace live_stiffness
