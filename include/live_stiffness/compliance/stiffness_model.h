@@ -1,27 +1,15 @@
 #pragma once
 // The incremental nonlinear Cosserat compliance model of Shi et al.: chamber pressures and tip wrench in, tip pose and
-// 6x6 compliance out. The paper's four models are two switches:
-//
-//                          ModelOptions::external_loads = false      true
-//   stepping = kLinear              LPCC                             LCM
-//   stepping = kFixedStep           NPCC                             NCM
-//
-// A scene without weight and without a tip wrench takes the closed form in all four; the boundary value solver is
-// touched only when something external acts.
+// 6x6 compliance out. A scene without weight and without a tip wrench takes the closed form; the boundary value solver
+// is touched only when something external acts.
 
 #include <string>
 
 #include "live_stiffness/compliance/material_compliance.h"
+#include "live_stiffness/compliance/model_options.h"
 #include "live_stiffness/rod/statics.h"
 
 namespace live_stiffness {
-
-struct ModelOptions {
-  bool external_loads = true;  // false: weight and tip wrench are ignored (piecewise constant curvature)
-  Stepping stepping = Stepping::kFixedStep;
-  double pressure_step = 15000.0;  // largest step of kFixedStep, Pa
-  double accuracy = 1e-9;          // relative, of pose and compliance, by which elements are chosen; 1e-13 to 1e-2
-};
 
 enum class SolveCode {
   kOk = 0,
