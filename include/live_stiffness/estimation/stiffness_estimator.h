@@ -1,0 +1,65 @@
+#pragma once
+// Live estimation: decides when to re-solve, and keeps the last good estimate when a solve fails.
+
+#include <string>
+#include <vector>
+
+#include "live_stiffness/compliance/ellipsoid.h"
+#include "live_stiffness/compliance/stiffness_model.h"
+
+namespace live_stiffness {
+
+struct EstimatorOptions {
+  double update_threshold = 1000.0;  // re-solve when the 2-norm of the change of pressure exceeds it (13), Pa
+  std::vector<double> fractions = {0.5, 0.6, 0.7, 0.8, 1.0};  // of each segment, where stations are evaluated, 0 to 1
+};
+
+// Everything known about the robot at one set of pressures.
+struct Estimate {
+  Pressures pressures;                  // gauge, Pa, one per chamber
+  Wrench tip_wrench = Wrench::Zero();   // dead wrench at T, base axes
+  StiffnessSolution solution;
+  Matrix6 stiffness = Matrix6::Zero();  // inverse of solution.compliance
+  Ellipsoid tip_ellipsoid;              // of the translational block of solution.compliance, half axes in m/N
+  std::vector<Station> stations;        // fractions of segment 1, then of segment 2, ...
+  std::vector<double> stretch;          // of each segment
+  double solve_time = 0.0;              // s
+};
+
+class StiffnessEstimator {
+ public:
+  enum class Outcome { kUnchanged, kSolved, kFailed };
+
+  // Throws ConfigurationError on bad options or scene.
+  StiffnessEstimator(Scene scene, const ModelOptions& model_options, EstimatorOptions options);
+
+  // New pressures: solves if they moved by more than the threshold since the last solve, or if there was none.
+  Outcome setPressures(PressuresRef pressures);
+  // New tip wrench (base axes): solves if it differs from the one of the last solve and pressures are known.
+  Outcome setTipWrench(const Wrench& tip_wrench);
+  // Solves for the newest pressures and wrench, whatever they are. kUnchanged when no pressures are known yet.
+  Outcome solve();
+
+  // The last good estimate; nullptr before the first.
+  const Estimate* estimate() const { return has_estimate_ ? &estimate_ : nullptr; }
+  // Status of the newest solve; unless ok, estimate() is of earlier pressures.
+  const SolveStatus& status() const { return status_; }
+  std::string statusText() const { return status_.ok() ? "" : model_.describe(status_); }
+  const StiffnessModel& model() const { return model_; }
+
+  // The shape of the newest solve at per_segment + 1 evenly spaced sections of each segment (compliance included),
+  // base to tip. Empty unless status() is ok and there is an estimate.
+  std::vector<Station> sampleBackbone(int per_segment) const;
+
+ private:
+  StiffnessModel model_;
+  EstimatorOptions options_;
+  StiffnessWorkspace workspace_;
+  Pressures newest_pressures_, solved_pressures_;
+  Wrench newest_wrench_ = Wrench::Zero(), solved_wrench_ = Wrench::Zero();
+  SolveStatus status_;
+  Estimate estimate_, candidate_;
+  bool has_pressures_ = false, has_solved_ = false, has_estimate_ = false;
+};
+
+}  // namespace live_stiffness

@@ -1,0 +1,33 @@
+#pragma once
+// Writes what a rig publishes into a bag: chamber_pressures, aurora_pose and, if there is one, its force sensor.
+
+#include <rosbag/bag.h>
+
+#include <string>
+
+#include "live_stiffness/ros/conversions.h"
+
+namespace live_stiffness {
+
+class RigBag {
+ public:
+  // Creates the file; throws ConfigurationError with path and reason if that fails. tracker_frame: frame_id of poses.
+  RigBag(const std::string& path, std::string tracker_frame);
+
+  // Gauge channel pressures, Pa, on chamber_pressures.
+  void write(PressuresRef channel_pressures, const ros::Time& stamp);
+  // Pose of the sensor in the tracker's frame, on aurora_pose.
+  void write(const Pose& X_AS, const ros::Time& stamp);
+  // A wrench in the force sensor's own axes, on tip_force_torque with frame_id tip_force_sensor. Not on tip_wrench: the
+  // node would take it as the wrench at T, and the sensor's axes and sign must be known for that.
+  void writeForceTorque(const Wrench& wrench, const ros::Time& stamp);
+
+ private:
+  rosbag::Bag bag_;
+  std::string tracker_frame_;
+};
+
+// Stamps of a bag begin here: ROS time must not be zero.
+inline ros::Time bagTime(double seconds) { return ros::Time(1000.0 + seconds); }
+
+}  // namespace live_stiffness

@@ -1,0 +1,47 @@
+#pragma once
+// Measured tip pose from the tracker's topic or from tf, brought to the base frame by the registration.
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "live_stiffness/ros/conversions.h"
+#include "live_stiffness/ros/input_watch.h"
+#include "live_stiffness/ros/node_parameters.h"
+
+namespace live_stiffness {
+
+class TrackerInput {
+ public:
+  using OnTip = std::function<void(const Pose& measured_X_BT, const ros::Time& stamp)>;
+
+  // Calls on_tip with each usable measurement. parameters must outlive the input.
+  TrackerInput(ros::NodeHandle node, const NodeParameters& parameters, OnTip on_tip);
+
+  // The newest measured pose of T in B, if it is not older than pose_timeout.
+  std::optional<Pose> freshTip() const;
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+
+ private:
+  void onMessage(const topic_tools::ShapeShifter::ConstPtr& message);
+  void onTfPoll(const ros::TimerEvent&);
+  void take(const Reading<TrackedPose>& reading);
+
+  const NodeParameters& parameters_;
+  OnTip on_tip_;
+  InputWatch watch_;
+  Pose X_AS_, X_BT_;
+  ros::Time last_change_;  // when X_AS last changed: a tracker that repeats itself has lost its sensor
+  ros::Time last_tf_stamp_;
+  ros::Subscriber subscriber_;
+  ros::Timer tf_timer_;
+  tf2_ros::Buffer tf_buffer_;
+  std::unique_ptr<tf2_ros::TransformListener> tf_listener_;
+};
+
+}  // namespace live_stiffness

@@ -1,0 +1,76 @@
+#include "live_stiffness/estimation/stiffness_estimator.h"
+
+#include <Eigen/LU>
+#include <chrono>
+
+namespace live_stiffness {
+namespace {
+
+EstimatorOptions checked(EstimatorOptions options) {
+  FaultList faults("estimator");
+  faults.check("update_threshold_pa", options.update_threshold, Range::nonnegative());
+  for (double fraction : options.fractions) faults.check("ellipsoid_fractions", fraction, {0.0, 1.0});
+  faults.throwIfAny();
+  return options;
+}
+
+}  // namespace
+
+StiffnessEstimator::StiffnessEstimator(Scene scene, const ModelOptions& model_options, EstimatorOptions options)
+    : model_(std::move(scene), model_options), options_(checked(std::move(options))),
+      workspace_(model_.makeWorkspace()) {}
+
+StiffnessEstimator::Outcome StiffnessEstimator::setPressures(PressuresRef pressures) {
+  newest_pressures_ = pressures;
+  has_pressures_ = true;
+  const bool comparable = has_solved_ && solved_pressures_.size() == pressures.size();
+  if (comparable && (pressures - solved_pressures_).norm() <= options_.update_threshold) return Outcome::kUnchanged;
+  return solve();
+}
+
+StiffnessEstimator::Outcome StiffnessEstimator::setTipWrench(const Wrench& tip_wrench) {
+  newest_wrench_ = tip_wrench;
+  if (has_solved_ && tip_wrench == solved_wrench_) return Outcome::kUnchanged;
+  return solve();
+}
+
+StiffnessEstimator::Outcome StiffnessEstimator::solve() {
+  if (!has_pressures_) return Outcome::kUnchanged;
+  has_solved_ = true;
+  solved_pressures_ = newest_pressures_;
+  solved_wrench_ = newest_wrench_;
+  const auto start = std::chrono::steady_clock::now();
+  candidate_.solution = model_.solve(newest_pressures_, newest_wrench_, workspace_);
+  status_ = candidate_.solution.status;
+  if (!status_.ok()) return Outcome::kFailed;
+  candidate_.stiffness = candidate_.solution.compliance.inverse();
+  if (!candidate_.stiffness.allFinite()) {
+    status_ = {SolveCode::kNotConverged, -1, 0.0};
+    return Outcome::kFailed;
+  }
+  candidate_.solve_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  candidate_.pressures = newest_pressures_;
+  candidate_.tip_wrench = newest_wrench_;
+  candidate_.tip_ellipsoid = ellipsoidOf(candidate_.solution.compliance.topLeftCorner<3, 3>());
+  candidate_.stations.clear();
+  candidate_.stretch.clear();
+  for (int segment = 0; segment < model_.scene().segmentCount(); ++segment) {
+    for (double fraction : options_.fractions)
+      candidate_.stations.push_back(model_.station(workspace_, segment, fraction));
+    candidate_.stretch.push_back(workspace_.backbone().rest[segment].stretch);
+  }
+  std::swap(estimate_, candidate_);
+  has_estimate_ = true;
+  return Outcome::kSolved;
+}
+
+std::vector<Station> StiffnessEstimator::sampleBackbone(int per_segment) const {
+  std::vector<Station> samples;
+  if (!has_estimate_ || !status_.ok()) return samples;
+  for (int segment = 0; segment < model_.scene().segmentCount(); ++segment)
+    for (int i = 0; i <= per_segment; ++i)
+      samples.push_back(model_.station(workspace_, segment, static_cast<double>(i) / per_segment));
+  return samples;
+}
+
+}  // namespace live_stiffness

@@ -1,0 +1,93 @@
+// recording_to_bag RECORDING.csv OUT.bag [--scene SCENE.yaml --registration OUT.yaml]: CSV recording to bag, no master.
+
+#include <boost/program_options.hpp>
+#include <iostream>
+
+#include "live_stiffness/compliance/stiffness_model.h"
+#include "live_stiffness/estimation/recording.h"
+#include "live_stiffness/estimation/registration_fit.h"
+#include "live_stiffness/rod/scene_file.h"
+#include "live_stiffness/ros/rig_bag.h"
+#include "live_stiffness/section/channel_map.h"
+#include "progress_bar.h"
+
+namespace po = boost::program_options;
+using namespace live_stiffness;
+
+namespace {
+
+void writeBag(const Recording& recording, const std::vector<Pressures>& channels, const std::string& path) {
+  RigBag bag(path, "aurora");
+  ProgressBar progress("writing " + path, static_cast<long>(recording.samples.size()));
+  const double start = recording.samples.front().time;
+  for (size_t i = 0; i < recording.samples.size(); ++i) {
+    const RecordedSample& sample = recording.samples[i];
+    const ros::Time stamp = bagTime(sample.time - start);
+    bag.write(channels[i], stamp);
+    bag.write(sample.tipPose(), stamp);
+    if (sample.tip_wrench) bag.writeForceTorque(*sample.tip_wrench, stamp);
+    progress.update(static_cast<long>(i) + 1);
+  }
+}
+
+// Fits where base and sensor are from the whole recording, and says how well the model then agrees.
+void registerRecording(const Recording& recording, const std::vector<Pressures>& channels,
+                       const std::string& scene_path, const std::string& registration_path) {
+  const StiffnessModel model(loadSceneFile(scene_path), ModelOptions());
+  const ChannelMap map = ChannelMap::even(recording.channelCount(), model.scene().chamberCount());
+  StiffnessWorkspace workspace = model.makeWorkspace();
+  std::vector<Pose> predicted, measured;
+  ProgressBar progress("solving " + recording.name, static_cast<long>(channels.size()));
+  for (size_t i = 0; i < channels.size(); ++i) {
+    const StiffnessSolution solution = model.solve(map.expand(channels[i]), Wrench::Zero(), workspace);
+    if (!solution.status.ok())
+      throw ConfigurationError(recording.name, {"line " + std::to_string(recording.samples[i].line) + ": " +
+                                                model.describe(solution.status)});
+    predicted.push_back(solution.X_BT);
+    measured.push_back(recording.samples[i].tipPose());
+    progress.update(static_cast<long>(i) + 1);
+  }
+  const RegistrationFit fit = fitRegistration(predicted, measured);
+  const std::string error = "tip error after registration: " + millimetreText(fit.position);
+  std::cout << error << "\n";
+  if (!fit.determined()) std::cout << fit.advice() << '\n';
+  saveRegistrationFile(registration_path, fit.registration,
+                       "Fitted by recording_to_bag to " + recording.name + " with scene " + scene_path + ":\n" + error);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::string recording_path, bag_path, scene_path, registration_path;
+  po::options_description options("Options");
+  options.add_options()
+    ("help,h", "print this and exit")
+    ("recording", po::value(&recording_path)->required(), "CSV recording")
+    ("bag", po::value(&bag_path)->required(), "bag to write")
+    ("scene", po::value(&scene_path), "scene of the recorded robot, for --registration")
+    ("registration", po::value(&registration_path), "also fit base and sensor to the recording and write them here");
+  po::positional_options_description positional;
+  positional.add("recording", 1).add("bag", 1);
+  try {
+    po::variables_map values;
+    po::store(po::command_line_parser(argc, argv).options(options).positional(positional).run(), values);
+    if (values.count("help")) {
+      std::cout << "recording_to_bag RECORDING.csv OUT.bag [--scene SCENE.yaml --registration OUT.yaml]\n\n"
+                   "Topics: chamber_pressures (gauge: less the mean of the first 0.5 s when absolute), aurora_pose,\n"
+                   "tip_force_torque when there is a force sensor.\n\n" << options;
+      return 0;
+    }
+    po::notify(values);
+    if (values.count("scene") != values.count("registration"))
+      throw ConfigurationError("options", {"--scene and --registration belong together: give both or none"});
+    const Recording recording = loadRecording(recording_path);
+    for (const std::string& warning : recording.warnings) std::cerr << recording_path << ": " << warning << '\n';
+    const std::vector<Pressures> channels = gaugePressures(recording);
+    writeBag(recording, channels, bag_path);
+    if (!scene_path.empty()) registerRecording(recording, channels, scene_path, registration_path);
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << "recording_to_bag: " << error.what() << "\nSee recording_to_bag --help.\n";
+    return 2;
+  }
+}

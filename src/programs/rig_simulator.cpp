@@ -1,0 +1,59 @@
+// rig_simulator: a node that plays a rig. Publishes chamber_pressures, aurora_pose and ~true_tip_pose.
+
+#include <ros/ros.h>
+
+#include "live_stiffness/ros/conversions.h"
+#include "live_stiffness/ros/rig_parameters.h"
+
+namespace {
+
+using namespace live_stiffness;
+
+class RigSimulator {
+ public:
+  RigSimulator(ros::NodeHandle node, const ros::NodeHandle& private_node)
+      : parameters_(loadRigParameters(private_node)),
+        rig_(parameters_.scene, parameters_.options),
+        pressures_(node.advertise<ChamberPressures>("chamber_pressures", 10)),
+        tracker_(node.advertise<geometry_msgs::PoseStamped>("aurora_pose", 10)),
+        truth_(ros::NodeHandle(private_node).advertise<geometry_msgs::PoseStamped>("true_tip_pose", 10)),
+        timer_(node.createTimer(ros::Duration(1.0 / parameters_.rate), &RigSimulator::onTimer, this)) {}
+
+ private:
+  void onTimer(const ros::TimerEvent&) {
+    const ros::Time now = ros::Time::now();
+    if (start_.isZero() || now < start_) start_ = now;
+    const double time = (now - start_).toSec();
+    if (time < last_time_) return;  // simulated time jumped back: wait until it has caught up
+    last_time_ = time;
+    try {
+      const RigSample sample = rig_.step(time);
+      pressures_.publish(toPressures(sample.measured_channels, now));
+      if (sample.X_AS) tracker_.publish(toPoseStamped(*sample.X_AS, now, parameters_.tracker_frame));
+      truth_.publish(toPoseStamped(sample.X_BT, now, parameters_.base_frame));
+    } catch (const std::runtime_error& error) {
+      ROS_ERROR_THROTTLE(1.0, "%s", error.what());
+    }
+  }
+
+  RigParameters parameters_;
+  RigModel rig_;
+  ros::Time start_;
+  double last_time_ = 0.0;
+  ros::Publisher pressures_, tracker_, truth_;
+  ros::Timer timer_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "rig_simulator");
+  try {
+    RigSimulator simulator(ros::NodeHandle(), ros::NodeHandle("~"));
+    ros::spin();
+  } catch (const ConfigurationError& error) {
+    ROS_FATAL("%s", error.what());
+    return 2;
+  }
+  return 0;
+}

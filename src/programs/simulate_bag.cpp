@@ -1,0 +1,68 @@
+// simulate_bag SCENE.yaml OUT.bag: what rig_simulator would publish, written to a bag without a master.
+
+#include <boost/program_options.hpp>
+#include <iostream>
+
+#include "live_stiffness/rig/rig_model.h"
+#include "live_stiffness/rod/scene_file.h"
+#include "live_stiffness/ros/rig_bag.h"
+#include "progress_bar.h"
+
+namespace po = boost::program_options;
+using namespace live_stiffness;
+
+int main(int argc, char** argv) {
+  std::string scene_path, bag_path, program = "triangle", registration_path;
+  double seconds = 20.0, rate_hz = 40.0;
+  int channels = 0;
+  RigOptions rig_options;
+  rig_options.drop_out_probability = 0.002;
+  po::options_description options("Options");
+  options.add_options()
+    ("help,h", "print this and exit")
+    ("scene", po::value(&scene_path)->required(), "scene file")
+    ("bag", po::value(&bag_path)->required(), "bag to write")
+    ("program", po::value(&program)->default_value(program), "triangle, staircase or random_walk")
+    ("seconds", po::value(&seconds)->default_value(seconds), "length of the bag")
+    ("rate-hz", po::value(&rate_hz)->default_value(rate_hz), "samples per second")
+    ("amplitude-pa", po::value(&rig_options.program.amplitude)->default_value(rig_options.program.amplitude),
+     "highest pressure")
+    ("channels", po::value(&channels), "pressure channels, each feeding as many neighbouring chambers (default: one "
+                                       "per chamber)")
+    ("registration", po::value(&registration_path), "where base and sensor are (default: identity)")
+    ("seed", po::value(&rig_options.seed)->default_value(rig_options.seed), "of everything random");
+  po::positional_options_description positional;
+  positional.add("scene", 1).add("bag", 1);
+  try {
+    po::variables_map values;
+    po::store(po::command_line_parser(argc, argv).options(options).positional(positional).run(), values);
+    if (values.count("help")) {
+      std::cout << "simulate_bag SCENE.yaml OUT.bag [options]\n\n" << options;
+      return 0;
+    }
+    po::notify(values);
+    FaultList faults("options");
+    rig_options.program.kind = programKind(program, faults);
+    faults.check("seconds", seconds, {0.1, 1e5});
+    faults.check("rate-hz", rate_hz, {1.0, 1000.0});
+    faults.throwIfAny();
+    const Scene scene = loadSceneFile(scene_path);
+    if (channels > 0) rig_options.channel_of_chamber = ChannelMap::even(channels, scene.chamberCount()).channelOfChamber();
+    if (!registration_path.empty()) rig_options.registration = loadRegistrationFile(registration_path);
+    RigModel rig(scene, rig_options);
+    RigBag bag(bag_path, "aurora");
+    const long samples = static_cast<long>(seconds * rate_hz);
+    ProgressBar progress("simulating " + bag_path, samples);
+    for (long i = 0; i < samples; ++i) {
+      const RigSample sample = rig.step(i / rate_hz);
+      const ros::Time stamp = bagTime(sample.time);
+      bag.write(sample.measured_channels, stamp);
+      if (sample.X_AS) bag.write(*sample.X_AS, stamp);
+      progress.update(i + 1);
+    }
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << "simulate_bag: " << error.what() << "\nSee simulate_bag --help.\n";
+    return 2;
+  }
+}

@@ -1,0 +1,256 @@
+#include "live_stiffness/ros/conversions.h"
+
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <std_msgs/Float32MultiArray.h>
+#include <std_msgs/Float64MultiArray.h>
+
+#include <cmath>
+
+#include "live_stiffness/checks.h"
+
+namespace live_stiffness {
+namespace {
+
+template <class Array>
+Pressures toVectorXd(const Array& array) {
+  Pressures values(array.size());
+  for (size_t k = 0; k < array.size(); ++k) values[k] = array[k];
+  return values;
+}
+
+template <class Value>
+Reading<Value> faulty(const std::string& fault) {
+  Reading<Value> reading;
+  reading.fault = fault;
+  return reading;
+}
+
+std::string pressureFault(double value, const PressureFormat& format) {
+  if (!std::isfinite(value)) return "is " + numberText(value) + ": must be finite";
+  if (format.absolute && value < 0.0)
+    return "is " + numberText(value) + ": an absolute pressure must not be negative; is it gauge? "
+           "(set ~pressure_reference: gauge)";
+  return "";
+}
+
+Reading<TrackedPose> checkedPose(const ros::Time& stamp, const std::string& frame, const geometry_msgs::Point& p,
+                                 const geometry_msgs::Quaternion& q, double position_unit) {
+  const Vector3 position(p.x, p.y, p.z);
+  const Eigen::Quaterniond rotation(q.w, q.x, q.y, q.z);
+  if (!position.allFinite() || !rotation.coeffs().allFinite())
+    return faulty<TrackedPose>("pose is not finite: the tracker does not see its sensor");
+  const double norm = rotation.norm();
+  if (norm < 1e-6) return faulty<TrackedPose>("quaternion is zero: the tracker does not see its sensor");
+  if (std::abs(norm - 1.0) > 0.05)
+    return faulty<TrackedPose>("quaternion has length " + numberText(norm) + ": must be 1");
+  Reading<TrackedPose> reading;
+  reading.stamp = stamp;
+  reading.value = {{rotation.normalized().toRotationMatrix(), position_unit * position}, withoutSlash(frame)};
+  return reading;
+}
+
+template <class Matrix, class Array>
+void copyRowByRow(const Matrix& matrix, Array& array) {
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j) array[6 * i + j] = matrix(i, j);
+}
+
+}  // namespace
+
+double pascalsPerUnit(const std::string& unit) {
+  if (unit == "Pa") return 1.0;
+  if (unit == "kPa") return 1e3;
+  if (unit == "bar") return 1e5;
+  if (unit == "mbar") return 1e2;
+  if (unit == "psi") return 6894.757293168361;
+  return 0.0;
+}
+
+Reading<Pressures> readPressures(const topic_tools::ShapeShifter& message, const PressureFormat& format) {
+  Reading<Pressures> reading;
+  const std::string type = message.getDataType();
+  if (type == "live_stiffness/ChamberPressures") {
+    const auto typed = message.instantiate<ChamberPressures>();
+    reading.stamp = typed->header.stamp;
+    reading.value = toVectorXd(typed->pressure);
+  } else if (type == "std_msgs/Float64MultiArray") {
+    reading.value = toVectorXd(message.instantiate<std_msgs::Float64MultiArray>()->data);
+  } else if (type == "std_msgs/Float32MultiArray") {
+    reading.value = toVectorXd(message.instantiate<std_msgs::Float32MultiArray>()->data);
+  } else {
+    return faulty<Pressures>("message type " + type + ": must be live_stiffness/ChamberPressures, "
+                             "std_msgs/Float64MultiArray or std_msgs/Float32MultiArray");
+  }
+  for (int k = 0; k < reading.value.size() && reading.ok(); ++k) {
+    const std::string fault = pressureFault(reading.value[k], format);
+    if (!fault.empty()) reading.fault = "pressure of channel " + std::to_string(k + 1) + " " + fault;
+    reading.value[k] = format.gauge(reading.value[k]);
+  }
+  return reading;
+}
+
+Reading<double> readPressure(const sensor_msgs::FluidPressure& message, const PressureFormat& format) {
+  Reading<double> reading;
+  reading.stamp = message.header.stamp;
+  reading.value = format.gauge(message.fluid_pressure);
+  const std::string fault = pressureFault(message.fluid_pressure, format);
+  if (!fault.empty()) reading.fault = "pressure " + fault;
+  return reading;
+}
+
+Reading<TrackedPose> readPose(const topic_tools::ShapeShifter& message, double position_unit) {
+  const std::string type = message.getDataType();
+  if (type == "geometry_msgs/PoseStamped") {
+    const auto typed = message.instantiate<geometry_msgs::PoseStamped>();
+    return checkedPose(typed->header.stamp, typed->header.frame_id, typed->pose.position, typed->pose.orientation,
+                       position_unit);
+  }
+  if (type == "geometry_msgs/PoseWithCovarianceStamped") {
+    const auto typed = message.instantiate<geometry_msgs::PoseWithCovarianceStamped>();
+    return checkedPose(typed->header.stamp, typed->header.frame_id, typed->pose.pose.position,
+                       typed->pose.pose.orientation, position_unit);
+  }
+  if (type == "geometry_msgs/TransformStamped")
+    return readPose(*message.instantiate<geometry_msgs::TransformStamped>(), position_unit);
+  return faulty<TrackedPose>("message type " + type + ": must be geometry_msgs/PoseStamped, "
+                             "geometry_msgs/PoseWithCovarianceStamped or geometry_msgs/TransformStamped");
+}
+
+Reading<TrackedPose> readPose(const geometry_msgs::TransformStamped& message, double position_unit) {
+  geometry_msgs::Point position;
+  position.x = message.transform.translation.x;
+  position.y = message.transform.translation.y;
+  position.z = message.transform.translation.z;
+  return checkedPose(message.header.stamp, message.header.frame_id, position, message.transform.rotation,
+                     position_unit);
+}
+
+Reading<Wrench> readWrench(const geometry_msgs::WrenchStamped& message) {
+  Reading<Wrench> reading;
+  reading.stamp = message.header.stamp;
+  const geometry_msgs::Vector3 &f = message.wrench.force, &m = message.wrench.torque;
+  reading.value << f.x, f.y, f.z, m.x, m.y, m.z;
+  if (!reading.value.allFinite()) reading.fault = "wrench is not finite";
+  return reading;
+}
+
+std::string withoutSlash(const std::string& frame) {
+  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
+}
+
+geometry_msgs::Point toPoint(const Vector3& p) {
+  geometry_msgs::Point point;
+  point.x = p.x();
+  point.y = p.y();
+  point.z = p.z();
+  return point;
+}
+
+geometry_msgs::Vector3 toVector(const Vector3& v) {
+  geometry_msgs::Vector3 vector;
+  vector.x = v.x();
+  vector.y = v.y();
+  vector.z = v.z();
+  return vector;
+}
+
+geometry_msgs::Quaternion toQuaternion(const Matrix3& R) {
+  Eigen::Quaterniond q(R);
+  q.normalize();
+  if (q.w() < 0.0) q.coeffs() = -q.coeffs();
+  geometry_msgs::Quaternion quaternion;
+  quaternion.w = q.w();
+  quaternion.x = q.x();
+  quaternion.y = q.y();
+  quaternion.z = q.z();
+  return quaternion;
+}
+
+geometry_msgs::Pose toPose(const Pose& X) {
+  geometry_msgs::Pose pose;
+  pose.position = toPoint(X.p);
+  pose.orientation = toQuaternion(X.R);
+  return pose;
+}
+
+geometry_msgs::TransformStamped toTransform(const Pose& X, const ros::Time& stamp, const std::string& parent,
+                                            const std::string& child) {
+  geometry_msgs::TransformStamped transform;
+  transform.header.stamp = stamp;
+  transform.header.frame_id = parent;
+  transform.child_frame_id = child;
+  transform.transform.translation = toVector(X.p);
+  transform.transform.rotation = toQuaternion(X.R);
+  return transform;
+}
+
+geometry_msgs::PoseStamped toPoseStamped(const Pose& X, const ros::Time& stamp, const std::string& frame) {
+  geometry_msgs::PoseStamped pose;
+  pose.header.stamp = stamp;
+  pose.header.frame_id = frame;
+  pose.pose = toPose(X);
+  return pose;
+}
+
+ChamberPressures toPressures(PressuresRef pressures, const ros::Time& stamp) {
+  ChamberPressures message;
+  message.header.stamp = stamp;
+  message.pressure.assign(pressures.data(), pressures.data() + pressures.size());
+  return message;
+}
+
+geometry_msgs::WrenchStamped toWrenchStamped(const Wrench& wrench, const ros::Time& stamp, const std::string& frame) {
+  geometry_msgs::WrenchStamped message;
+  message.header.stamp = stamp;
+  message.header.frame_id = frame;
+  message.wrench.force = toVector(linear(wrench));
+  message.wrench.torque = toVector(angular(wrench));
+  return message;
+}
+
+StiffnessEstimate toEstimate(const Estimate& estimate, const ros::Time& stamp, const std::string& frame) {
+  StiffnessEstimate message;
+  message.header.stamp = stamp;
+  message.header.frame_id = frame;
+  message.tip_pose = toPose(estimate.solution.X_BT);
+  copyRowByRow(estimate.solution.compliance, message.compliance);
+  copyRowByRow(estimate.solution.material_compliance, message.material_compliance);
+  copyRowByRow(estimate.stiffness, message.stiffness);
+  for (int k = 0; k < 3; ++k) message.compliance_eigenvalues[k] = estimate.tip_ellipsoid.half_axes[k];
+  message.pressure.assign(estimate.pressures.data(), estimate.pressures.data() + estimate.pressures.size());
+  message.tip_wrench.force = toVector(linear(estimate.tip_wrench));
+  message.tip_wrench.torque = toVector(angular(estimate.tip_wrench));
+  message.stretch = estimate.stretch;
+  message.iterations = estimate.solution.iterations;
+  message.solve_time = estimate.solve_time;
+  message.numerical_error = estimate.solution.numerical_error;
+  return message;
+}
+
+nav_msgs::Path toPath(const std::vector<Station>& stations, const Pose& X_BT, const ros::Time& stamp,
+                      const std::string& frame) {
+  nav_msgs::Path path;
+  path.header.stamp = stamp;
+  path.header.frame_id = frame;
+  for (const Station& station : stations) path.poses.push_back(toPoseStamped(station.X_BS, stamp, frame));
+  path.poses.push_back(toPoseStamped(X_BT, stamp, frame));
+  return path;
+}
+
+TrackingError toTrackingError(const Pose& measured, const Pose& predicted, const ros::Time& stamp,
+                              const std::string& frame) {
+  const Vector3 translation = measured.p - predicted.p;
+  const Vector3 rotation = logSo3(measured.R * predicted.R.transpose());
+  TrackingError error;
+  error.header.stamp = stamp;
+  error.header.frame_id = frame;
+  error.measured = toPose(measured);
+  error.predicted = toPose(predicted);
+  error.translation = toVector(translation);
+  error.rotation = toVector(rotation);
+  error.distance = translation.norm();
+  error.angle = rotation.norm();
+  return error;
+}
+
+}  // namespace live_stiffness

@@ -1,0 +1,52 @@
+#include "live_stiffness/ros/input_watch.h"
+
+#include <ros/console.h>
+
+#include <cmath>
+
+namespace live_stiffness {
+
+void InputWatch::accept(const ros::Time& now) {
+  const double interval = accepted_ > 0 ? (now - last_accepted_).toSec() : 0.0;
+  if (interval > 0.0) {
+    const double blend = rate_ > 0.0 ? 0.1 : 1.0;
+    const double smoothed_interval = (1.0 - blend) * (rate_ > 0.0 ? 1.0 / rate_ : 0.0) + blend * interval;
+    rate_ = 1.0 / smoothed_interval;
+  }
+  last_accepted_ = now;
+  ++accepted_;
+  current_fault_.clear();
+}
+
+void InputWatch::reject(const std::string& fault) {
+  ++rejected_;
+  current_fault_ = fault;
+  // Not ROS_ERROR_THROTTLE: that would share one clock between all inputs, and stop when simulated time does.
+  const ros::WallTime now = ros::WallTime::now();
+  if (now - last_logged_ < ros::WallDuration(1.0)) return;
+  last_logged_ = now;
+  ROS_ERROR_STREAM(name_ << ": " << fault);
+}
+
+ros::Time InputWatch::stampFor(const ros::Time& stamp, const ros::Time& now) {
+  constexpr double kForeign = 10.0;  // s
+  if (stamp.isZero()) return now;
+  if (std::abs((stamp - now).toSec()) <= kForeign) return stamp;
+  ++foreign_stamps_;
+  ROS_WARN_STREAM_THROTTLE(60.0, name_ << ": stamps are " << (stamp - now).toSec()
+                                       << " s from ROS time (a device's own clock?); using the time of arrival");
+  return now;
+}
+
+double InputWatch::age(const ros::Time& now) const {
+  return accepted_ > 0 ? (now - last_accepted_).toSec() : 1e9;
+}
+
+void InputWatch::restart() {
+  last_accepted_ = ros::Time();
+  accepted_ = 0;
+  rate_ = 0.0;
+  current_fault_.clear();
+}
+
+}  // namespace live_stiffness

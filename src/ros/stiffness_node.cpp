@@ -1,0 +1,153 @@
+#include "live_stiffness/ros/stiffness_node.h"
+
+namespace live_stiffness {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+using diagnostic_updater::DiagnosticStatusWrapper;
+
+constexpr int kBackboneSamples = 20;  // per segment
+
+}  // namespace
+
+StiffnessNode::StiffnessNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
+    : node_(node),
+      private_node_(private_node),
+      parameters_(loadNodeParameters(private_node)),
+      estimator_(parameters_.scene, parameters_.model, parameters_.estimator),
+      diagnostics_(node, private_node),
+      wrench_watch_("tip_wrench"),
+      pressure_input_(
+          node, parameters_, [this](const Pressures& pressures, const ros::Time& stamp) { onPressures(pressures, stamp); },
+          [this](const std::string& fault) { onPressureFault(fault); }),
+      tracker_input_(node, parameters_, [this](const Pose& X_BT, const ros::Time& stamp) { onMeasuredTip(X_BT, stamp); }) {
+  marker_style_.frame = parameters_.base_frame;
+  marker_style_.ellipsoid_scale = parameters_.ellipsoid_scale;
+  estimate_publisher_ = private_node_.advertise<StiffnessEstimate>("estimate", 10);
+  tip_pose_publisher_ = private_node_.advertise<geometry_msgs::PoseStamped>("tip_pose", 10);
+  error_publisher_ = private_node_.advertise<TrackingError>("tracking_error", 10);
+  backbone_publisher_ = private_node_.advertise<nav_msgs::Path>("backbone", 1);
+  marker_publisher_ = private_node_.advertise<visualization_msgs::MarkerArray>("markers", 1);
+  static_tf_broadcaster_.sendTransform(
+      toTransform(parameters_.registration.X_AB, ros::Time::now(), parameters_.tracker_frame, parameters_.base_frame));
+  diagnostics_.setHardwareID("live_stiffness");
+  diagnostics_.add("Pressures", &pressure_input_, &PressureInput::diagnose);
+  diagnostics_.add("Tracker", this, &StiffnessNode::diagnoseTracker);
+  diagnostics_.add("Solver", this, &StiffnessNode::diagnoseSolver);
+  wrench_subscriber_ = node_.subscribe("tip_wrench", 10, &StiffnessNode::onTipWrench, this);
+  timers_ = {node_.createTimer(ros::Duration(1.0 / parameters_.heartbeat), &StiffnessNode::onHeartbeat, this),
+             node_.createTimer(ros::Duration(1.0 / parameters_.marker_rate), &StiffnessNode::onMarkers, this)};
+  ROS_INFO("%s, stepping %s, %d segment(s), %d chamber(s) on %d channel(s)", modelName(parameters_.model).c_str(),
+           steppingName(parameters_.model.stepping).c_str(), parameters_.scene.segmentCount(),
+           parameters_.scene.chamberCount(), pressure_input_.channelCount());
+}
+
+void StiffnessNode::onPressures(const Pressures& pressures, const ros::Time& stamp) {
+  pressure_stamp_ = stamp;
+  react(estimator_.setPressures(pressures));
+}
+
+void StiffnessNode::onPressureFault(const std::string& fault) { newest_fault_ = fault; }
+
+void StiffnessNode::react(StiffnessEstimator::Outcome outcome) {
+  newest_fault_ = estimator_.statusText();
+  if (!newest_fault_.empty()) pressure_input_.reject(newest_fault_);
+  else if (outcome == StiffnessEstimator::Outcome::kSolved) estimate_stamp_ = pressure_stamp_;
+  if (outcome != StiffnessEstimator::Outcome::kUnchanged) publishEstimate();
+}
+
+// The last good estimate, with the truth about how good it still is.
+void StiffnessNode::publishEstimate() {
+  if (estimator_.estimate() == nullptr) return;
+  const Estimate& estimate = *estimator_.estimate();
+  StiffnessEstimate message = toEstimate(estimate, estimate_stamp_, parameters_.base_frame);
+  message.status = static_cast<uint8_t>(estimator_.status().code);
+  message.stale = isStale();
+  message.message = newest_fault_;
+  if (message.status == StiffnessEstimate::OK && !newest_fault_.empty())
+    message.status = StiffnessEstimate::INVALID_INPUT;  // the message could not even be read
+  if (message.stale && message.message.empty())
+    message.message = "no pressures for more than " + numberText(parameters_.pressure_timeout) + " s";
+  estimate_publisher_.publish(message);
+  if (message.stale) return;
+  tip_pose_publisher_.publish(toPoseStamped(estimate.solution.X_BT, estimate_stamp_, parameters_.base_frame));
+  if (estimate_stamp_ == tf_stamp_) return;
+  tf_stamp_ = estimate_stamp_;
+  tf_broadcaster_.sendTransform(
+      toTransform(estimate.solution.X_BT, estimate_stamp_, parameters_.base_frame, parameters_.tip_frame));
+}
+
+void StiffnessNode::onHeartbeat(const ros::TimerEvent&) {
+  expireTipWrench();
+  if (isStale()) publishEstimate();
+  else react(estimator_.solve());
+}
+
+void StiffnessNode::onTipWrench(const geometry_msgs::WrenchStamped::ConstPtr& message) {
+  const Reading<Wrench> reading = readWrench(*message);
+  if (!reading.ok()) return wrench_watch_.reject(reading.fault);
+  const std::string frame = withoutSlash(message->header.frame_id);
+  Wrench tip_wrench = reading.value;
+  if (frame == parameters_.tip_frame) {
+    if (estimator_.estimate() == nullptr) return;  // the tip's axes are not known yet
+    const Matrix3& R_BT = estimator_.estimate()->solution.X_BT.R;
+    linear(tip_wrench) = R_BT * linear(reading.value);
+    angular(tip_wrench) = R_BT * angular(reading.value);
+  } else if (frame != parameters_.base_frame && !frame.empty()) {
+    return wrench_watch_.reject("unknown frame " + frame + ": must be " + parameters_.base_frame + " or " +
+                                parameters_.tip_frame);
+  }
+  wrench_watch_.accept(ros::Time::now());
+  react(estimator_.setTipWrench(tip_wrench));
+}
+
+void StiffnessNode::expireTipWrench() {
+  if (parameters_.tip_wrench_timeout <= 0.0 || !wrench_watch_.everAccepted()) return;
+  if (wrench_watch_.age(ros::Time::now()) <= parameters_.tip_wrench_timeout) return;
+  ROS_WARN("tip_wrench: nothing for %g s, now taken as zero", parameters_.tip_wrench_timeout);
+  wrench_watch_.restart();
+  react(estimator_.setTipWrench(Wrench::Zero()));
+}
+
+void StiffnessNode::onMeasuredTip(const Pose& measured_X_BT, const ros::Time& stamp) {
+  if (estimator_.estimate() == nullptr || isStale()) return;
+  const TrackingError error =
+      toTrackingError(measured_X_BT, estimator_.estimate()->solution.X_BT, stamp, parameters_.base_frame);
+  tracking_error_ = error.distance;
+  error_publisher_.publish(error);
+}
+
+void StiffnessNode::onMarkers(const ros::TimerEvent&) {
+  if (estimator_.estimate() == nullptr) return;
+  const Estimate& estimate = *estimator_.estimate();
+  std::vector<Station> samples = estimator_.sampleBackbone(kBackboneSamples);
+  if (samples.empty()) samples = estimate.stations;  // the newest solve failed: its shape is not to be shown
+  if (samples.empty()) return;
+  marker_publisher_.publish(
+      makeMarkers(estimate, samples, tracker_input_.freshTip(), isStale(), marker_style_, estimate_stamp_));
+  backbone_publisher_.publish(toPath(samples, estimate.solution.X_BT, estimate_stamp_, parameters_.base_frame));
+}
+
+void StiffnessNode::diagnoseTracker(DiagnosticStatusWrapper& status) {
+  tracker_input_.diagnose(status);
+  status.add("tracking error (mm)", 1e3 * tracking_error_);
+}
+
+void StiffnessNode::diagnoseSolver(DiagnosticStatusWrapper& status) {
+  if (!estimator_.status().ok())
+    status.summary(DiagnosticStatus::ERROR, estimator_.statusText());
+  else if (estimator_.estimate() == nullptr)
+    status.summary(DiagnosticStatus::WARN, "nothing solved yet");
+  else if (!wrench_watch_.currentFault().empty())
+    status.summary(DiagnosticStatus::WARN, "tip_wrench: " + wrench_watch_.currentFault());
+  else
+    status.summary(DiagnosticStatus::OK, "ok");
+  if (estimator_.estimate() == nullptr) return;
+  const Estimate& estimate = *estimator_.estimate();
+  status.add("model", modelName(parameters_.model) + ", " + steppingName(parameters_.model.stepping));
+  status.add("solve time (us)", 1e6 * estimate.solve_time);
+  status.add("iterations", estimate.solution.iterations);
+  status.add("numerical error", estimate.solution.numerical_error);
+}
+
+}  // namespace live_stiffness

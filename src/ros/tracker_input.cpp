@@ -1,0 +1,81 @@
+#include "live_stiffness/ros/tracker_input.h"
+
+namespace live_stiffness {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+
+constexpr double kTfPollRate = 40.0;     // Hz, an NDI Aurora's
+constexpr double kPlausibleReach = 5.0;  // m; a position beyond is in millimetres
+
+}  // namespace
+
+TrackerInput::TrackerInput(ros::NodeHandle node, const NodeParameters& parameters, OnTip on_tip)
+    : parameters_(parameters), on_tip_(std::move(on_tip)), watch_("aurora_pose") {
+  if (parameters_.tracker_tf_frame.empty()) {
+    subscriber_ = node.subscribe("aurora_pose", 10, &TrackerInput::onMessage, this);
+  } else {
+    tf_listener_ = std::make_unique<tf2_ros::TransformListener>(tf_buffer_, node);
+    tf_timer_ = node.createTimer(ros::Duration(1.0 / kTfPollRate), &TrackerInput::onTfPoll, this);
+  }
+}
+
+void TrackerInput::onMessage(const topic_tools::ShapeShifter::ConstPtr& message) {
+  take(readPose(*message, parameters_.position_unit));
+}
+
+void TrackerInput::onTfPoll(const ros::TimerEvent&) {
+  try {
+    const geometry_msgs::TransformStamped transform =
+        tf_buffer_.lookupTransform(parameters_.tracker_frame, parameters_.tracker_tf_frame, ros::Time(0));
+    if (transform.header.stamp == last_tf_stamp_) return;
+    last_tf_stamp_ = transform.header.stamp;
+    take(readPose(transform, parameters_.position_unit));
+  } catch (const tf2::TransformException& error) {
+    watch_.reject(error.what());
+  }
+}
+
+void TrackerInput::take(const Reading<TrackedPose>& reading) {
+  if (!reading.ok()) return watch_.reject(reading.fault);
+  const std::string& frame = reading.value.frame;
+  if (!frame.empty() && frame != parameters_.tracker_frame && frame != parameters_.sensor_frame)
+    return watch_.reject("unknown frame " + frame + ": must be " + parameters_.tracker_frame + " or " +
+                         parameters_.sensor_frame + "; see ~tracker_frame");
+  const ros::Time now = ros::Time::now();
+  const Pose& X_AS = reading.value.pose;
+  if (!watch_.everAccepted() || X_AS.p != X_AS_.p || X_AS.R != X_AS_.R) last_change_ = now;
+  X_AS_ = X_AS;
+  const Registration& registration = parameters_.registration;
+  X_BT_ = registration.X_AB.inverse() * X_AS * registration.X_TS.inverse();
+  const ros::Time stamp = watch_.stampFor(reading.stamp, now);
+  watch_.accept(now);
+  on_tip_(X_BT_, stamp);
+}
+
+std::optional<Pose> TrackerInput::freshTip() const {
+  if (watch_.age(ros::Time::now()) > parameters_.pose_timeout) return std::nullopt;
+  return X_BT_;
+}
+
+void TrackerInput::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+  const ros::Time now = ros::Time::now();
+  const double unchanged = (now - last_change_).toSec();
+  if (!watch_.currentFault().empty())
+    status.summary(DiagnosticStatus::WARN, watch_.currentFault());
+  else if (!watch_.everAccepted())
+    status.summary(DiagnosticStatus::WARN, "no tracker pose received yet; estimates do not need it");
+  else if (watch_.age(now) > parameters_.pose_timeout)
+    status.summaryf(DiagnosticStatus::WARN, "tracker pose is stale: %.1f s old", watch_.age(now));
+  else if (unchanged > parameters_.pose_timeout)
+    status.summaryf(DiagnosticStatus::WARN, "tracker repeats the same pose for %.1f s: sensor lost?", unchanged);
+  else if (X_AS_.p.norm() > kPlausibleReach)
+    status.summary(DiagnosticStatus::WARN, "position is metres away: millimetres? (set ~aurora_position_unit: mm)");
+  else
+    status.summary(DiagnosticStatus::OK, "ok");
+  status.add("rate (Hz)", watch_.rate());
+  status.add("accepted", watch_.accepted());
+  status.add("rejected", watch_.rejected());
+}
+
+}  // namespace live_stiffness
