@@ -5,7 +5,7 @@
 #include <set>
 #include <sstream>
 
-#include "yaml_map.h"
+#include "live_stiffness/yaml_map.h"
 
 namespace live_stiffness {
 namespace {

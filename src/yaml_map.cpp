@@ -1,4 +1,4 @@
-#include "yaml_map.h"
+#include "live_stiffness/yaml_map.h"
 
 #include <cmath>
 #include <map>

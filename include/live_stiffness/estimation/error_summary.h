@@ -1,0 +1,23 @@
+#pragma once
+// The four figures by which errors are reported everywhere: mean, RMS, 95th percentile and maximum.
+
+#include <string>
+#include <vector>
+
+namespace live_stiffness {
+
+struct ErrorSummary {
+  int count = 0;      // of errors; when 0 nothing else holds
+  double mean = 0.0;  // all in the unit of the errors
+  double rms = 0.0;
+  double p95 = 0.0;   // smallest error that at least 95 % of the errors do not exceed
+  double max = 0.0;
+};
+
+// Summary of error magnitudes, which must not be negative. A NaN among them makes every figure NaN.
+ErrorSummary summarizeErrors(std::vector<double> errors);
+
+// "mean 0.67, RMS 0.81, p95 1.60, max 2.31 mm (1094 samples)" of errors in metres.
+std::string millimetreText(const ErrorSummary& summary);
+
+}  // namespace live_stiffness

@@ -1,0 +1,71 @@
+#pragma once
+// A recording of a robot: chamber pressures, tracker poses and, if there is one, the tip force sensor over time.
+//
+// Read from CSV with one header line. Columns are found by name, in any order; others are ignored with a warning:
+//   time_s                                    strictly increasing
+//   pressure_K_pa_abs or pressure_K_pa        K = 1, 2, ... without gaps; all absolute or all gauge
+//   tip_x_m .. tip_z_m, tip_qw .. tip_qz      tracker sensor on the tip, in the tracker frame A
+//   base_x_m .. base_z_m                      optional: tracker sensor at the base, in A
+//   force_x_n .. force_z_n, torque_x_nm .. torque_z_nm    optional: tip force/torque sensor
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "live_stiffness/lie/se3.h"
+
+namespace live_stiffness {
+
+struct RecordedSample {
+  int line = 0;        // of the file, counted from 1
+  double time = 0.0;   // s
+  Pressures pressures;  // one per channel, Pa; absolute or gauge as Recording::absolute says
+  std::optional<Vector3> base_position;  // p_A of the base sensor, m
+  Vector3 tip_position = Vector3::Zero();  // p_AS of the tip sensor, m
+  // Orientation q_AS of the tip sensor, unit norm; of the two signs of the same rotation the one nearer to the sample
+  // before, so that components are continuous in time.
+  Eigen::Quaterniond tip_orientation = Eigen::Quaterniond::Identity();
+  std::optional<Wrench> tip_wrench;  // [f; m] as recorded: in the sensor's axes, at the sensor; N and N m
+
+  Pose tipPose() const { return {tip_orientation.toRotationMatrix(), tip_position}; }  // X_AS
+};
+
+struct Recording {
+  std::string name;                     // path it was read from
+  bool absolute = false;                // pressures are absolute; see gaugePressures()
+  std::vector<RecordedSample> samples;  // in order of time, never empty
+  std::vector<std::string> warnings;    // "line N: reason" for every line left out, and for ignored columns
+
+  int channelCount() const { return static_cast<int>(samples.front().pressures.size()); }
+};
+
+// Reads a file. A line with a missing, extra, unreadable or non-finite value, a time that does not increase, or a zero
+// quaternion is left out with a warning. Throws ConfigurationError (all faults) when the file cannot be read, the
+// header lacks or repeats a column, or no line is left.
+Recording loadRecording(const std::string& path);
+
+// The same from text; `name` stands for the path in messages.
+Recording parseRecording(const std::string& csv, const std::string& name);
+
+// Gauge pressures per sample (Pa). Of an absolute recording: less the mean of each channel over the first rest_window
+// seconds, which must be a rest (the first sample alone if the window is shorter than a sample period). Of a gauge
+// recording: as they are.
+std::vector<Pressures> gaugePressures(const Recording& recording, double rest_window = 0.5);
+
+// What counts as quasi-static. A channel moves between two samples at most `window` apart whose pressures differ by
+// more than `change`; samples from `before` ahead of the first of the two to `after` past the second are dropped.
+struct QuasiStaticRule {
+  double change = 2000.0;  // Pa
+  double window = 0.25;    // s
+  double before = 0.3;     // s
+  double after = 1.0;      // s
+};
+
+// Indices of the quasi-static samples, ascending; may be empty.
+std::vector<int> quasiStaticSamples(const Recording& recording, const QuasiStaticRule& rule = {});
+
+// True if the measured force is below `force` (N), or if no force was recorded.
+bool isUnloaded(const RecordedSample& sample, double force = 0.06);
+
+}  // namespace live_stiffness

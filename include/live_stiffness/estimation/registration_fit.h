@@ -1,0 +1,41 @@
+#pragma once
+// Registration of tracker and robot by least squares: predicted tip poses against measured sensor poses.
+
+#include <string>
+#include <vector>
+
+#include "live_stiffness/estimation/error_summary.h"
+#include "live_stiffness/estimation/registration.h"
+
+namespace live_stiffness {
+
+// How small a singular value of the scaled problem counts as "the data do not determine this": a position error e of
+// the model or tracker then moves the sensor offset by more than e / kWeakSensitivity.
+constexpr double kWeakSensitivity = 0.02;
+
+struct RegistrationFit {
+  Registration registration;
+  std::vector<double> residuals;           // |p_AS predicted - measured| per sample, m
+  ErrorSummary position;                   // of the residuals, m
+  ErrorSummary rotation;                   // angle between predicted and measured sensor orientation, rad
+  bool base_rotation_determined = false;   // false: some rotation of the base fits as well; the start's was kept
+  bool sensor_offset_determined = false;   // false: some offset fits as well; that component was left at zero
+  double weakest_sensitivity = 0.0;        // smallest singular value: m of sensor motion per m of offset, or per
+                                           // turn of the base that moves the tip by 1 m at its rms distance
+  bool determined() const { return base_rotation_determined && sensor_offset_determined; }
+  // What to do about it, for people; empty when everything is determined.
+  std::string advice() const;
+};
+
+// Fits X_AB and the sensor's offset p_TS to the positions (rigid: no scale), minimising
+//   sum_i | X_AB (p_BT_i + R_BT_i p_TS) - p_AS_i |^2,
+// by Gauss-Newton with p_AB eliminated, started from two independent guesses of R_AB (positions by Kabsch's method with
+// no offset; rotation vectors from the mean orientation by the same method, whatever the offset); then the sensor's
+// rotation R_TS as the mean of (R_AB R_BT_i)^T R_AS_i. A component of offset and rotation that the motion does not
+// determine is left where the start has it: offset zero, and the flags say so. Bending towards one side only, for
+// example, cannot tell an offset across that plane from a shift of the base.
+// X_BT: predicted, X_AS: measured, of the same instants. Throws ConfigurationError on different sizes, fewer than
+// 3 samples, or values that are not finite.
+RegistrationFit fitRegistration(const std::vector<Pose>& X_BT, const std::vector<Pose>& X_AS);
+
+}  // namespace live_stiffness

@@ -1,0 +1,58 @@
+#pragma once
+// Commanded channel pressures of the simulated rig over time.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "live_stiffness/checks.h"
+#include "live_stiffness/conventions.h"
+
+namespace live_stiffness {
+
+enum class ProgramKind {
+  kTriangle,    // each channel up to the amplitude and down again once a period, one after the other by 1/channels
+  kStaircase,   // one channel at a time: thirds of the amplitude, each held for a period, then one period of rest
+  kRandomWalk,  // each channel on its own: a new level every period, at most half the amplitude from the last one
+};
+
+// Name in parameter files: "triangle", "staircase", "random_walk". The way back adds a fault and returns kTriangle for
+// any other text.
+const char* programName(ProgramKind kind);
+ProgramKind programKind(const std::string& name, FaultList& faults);
+
+struct ProgramOptions {
+  ProgramKind kind = ProgramKind::kTriangle;
+  double amplitude = 80000.0;  // highest commanded pressure, Pa gauge; 0 to 1e6
+  double period = 10.0;        // s; 0.1 to 3600
+  std::uint64_t seed = 1;      // of the random walk
+};
+
+// A pure function of time: the same options give the same pressures, whatever the order of the questions. Every
+// channel is zero up to time 0 and stays within 0 and the amplitude. Levels are joined by quintic blends (continuous up
+// to acceleration) over 20 % of the period for the staircase and all of it for the random walk; the triangle has corners.
+class PressureProgram {
+ public:
+  // channels: 1 to 1024. Throws ConfigurationError with every fault.
+  PressureProgram(int channels, const ProgramOptions& options);
+
+  // Adds faults of options to a list, under the names amplitude_pa and period_s.
+  static void check(const ProgramOptions& options, FaultList& faults);
+
+  int channelCount() const { return channels_; }
+  const ProgramOptions& options() const { return options_; }
+
+  // Commanded gauge pressures (Pa, one per channel) at a time (s, finite).
+  Pressures at(double time) const;
+
+ private:
+  double level(int channel, double time) const;  // 0 to 1
+
+  int channels_;
+  ProgramOptions options_;
+  // Levels of the random walk, one vector per channel, first one zero. The walk runs through them and back again, so
+  // that it has no end: with 1024 levels of 5 s it repeats after 2.8 h.
+  std::vector<std::vector<double>> walk_;
+};
+
+}  // namespace live_stiffness
