@@ -73,7 +73,7 @@ void PressureInput::take(const Reading<Pressures>& channels) {
 
 bool PressureInput::isStale() const { return watch_.age(ros::Time::now()) > parameters_.pressure_timeout; }
 
-void PressureInput::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+void PressureInput::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   if (!watch_.currentFault().empty())
     status.summary(DiagnosticStatus::ERROR, watch_.currentFault());
   else if (!watch_.everAccepted())

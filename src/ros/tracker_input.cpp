@@ -58,7 +58,7 @@ std::optional<Pose> TrackerInput::freshTip() const {
   return X_BT_;
 }
 
-void TrackerInput::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+void TrackerInput::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const ros::Time now = ros::Time::now();
   const double unchanged = (now - last_change_).toSec();
   if (!watch_.currentFault().empty())

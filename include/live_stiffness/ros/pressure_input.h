@@ -27,7 +27,7 @@ class PressureInput {
   void reject(const std::string& fault) { watch_.reject(fault); }
   bool isStale() const;
   int channelCount() const { return channel_map_.channelCount(); }
-  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
  private:
   void onMessage(const topic_tools::ShapeShifter::ConstPtr& message);

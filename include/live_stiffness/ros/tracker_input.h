@@ -25,7 +25,7 @@ class TrackerInput {
 
   // The newest measured pose of T in B, if it is not older than pose_timeout.
   std::optional<Pose> freshTip() const;
-  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
  private:
   void onMessage(const topic_tools::ShapeShifter::ConstPtr& message);
