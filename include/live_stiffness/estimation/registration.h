@@ -24,7 +24,7 @@ struct Registration {
 Registration loadRegistrationFile(const std::string& path);
 Registration parseRegistration(const std::string& yaml, const std::string& name);
 
-// Text that parseRegistration reads back to the last digit. Each line of `comment` becomes a comment on top.
+// Text that parseRegistration reads back to rounding (17 digits). Each line of `comment` becomes a comment on top.
 std::string registrationText(const Registration& registration, const std::string& comment = "");
 
 // Writes registrationText to a file; throws ConfigurationError if it cannot be written.

@@ -11,7 +11,7 @@ namespace live_stiffness {
 
 // How small a singular value of the scaled problem counts as "the data do not determine this": a position error e of
 // the model or tracker then moves the sensor offset by more than e / kWeakSensitivity.
-constexpr double kWeakSensitivity = 0.02;
+constexpr double kWeakSensitivity = 0.01;
 
 struct RegistrationFit {
   Registration registration;

@@ -30,7 +30,8 @@ struct ProgramOptions {
 
 // A pure function of time: the same options give the same pressures, whatever the order of the questions. Every
 // channel is zero up to time 0 and stays within 0 and the amplitude. Levels are joined by quintic blends (continuous up
-// to acceleration) over 20 % of the period for the staircase and all of it for the random walk; the triangle has corners.
+// to acceleration), over 20 % of the period for the staircase and all of it for the random walk; the triangle has
+// corners.
 class PressureProgram {
  public:
   // channels: 1 to 1024. Throws ConfigurationError with every fault.

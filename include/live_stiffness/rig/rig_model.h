@@ -27,7 +27,7 @@ struct RigOptions {
 
   double regulator_time_constant = 0.1;  // s; 0 to 10
   double regulator_error = 3000.0;       // bound of the slow error, Pa; 0 to 1e5
-  double regulator_error_period = 60.0;  // s; 1 to 1e5: the error's slowest component; the others are 2 and 3 times faster
+  double regulator_error_period = 60.0;  // s; 1 to 1e5: slowest of three sines, the others 2 and 3 times as fast
 
   // Effective pressure = (1 - fraction) actual + fraction * actual lagged by the time constant: after a step the robot
   // reaches (1 - fraction) at once and creeps the rest. Fully relaxed it is the fine robot exactly.

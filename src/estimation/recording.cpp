@@ -1,0 +1,149 @@
+#include "live_stiffness/estimation/recording.h"
+
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "live_stiffness/checks.h"
+#include "recording_columns.h"
+
+namespace live_stiffness {
+namespace {
+
+// The sample on a line, or the reason why it is none.
+std::optional<RecordedSample> readSample(const RecordingColumns& columns, const std::vector<std::string>& fields,
+                                         const Recording& so_far, std::string& reason) {
+  if (fields.size() != columns.names.size()) {
+    reason = std::to_string(fields.size()) + " fields: must be " + std::to_string(columns.names.size());
+    return std::nullopt;
+  }
+  const auto number = [&](int column) {
+    const std::optional<double> value = finiteNumber(fields[column]);
+    if (!value && reason.empty())
+      reason = columns.names[column] + " = '" + fields[column] + "': must be a finite number";
+    return value.value_or(0.0);
+  };
+  const auto vector = [&](const std::array<int, 3>& column) {
+    return Vector3(number(column[0]), number(column[1]), number(column[2]));
+  };
+  RecordedSample sample;
+  sample.time = number(columns.time);
+  sample.pressures.resize(columns.pressures.size());
+  for (size_t k = 0; k < columns.pressures.size(); ++k) sample.pressures[k] = number(columns.pressures[k]);
+  if (columns.base) sample.base_position = vector(*columns.base);
+  sample.tip_position = vector(columns.tip_position);
+  Eigen::Quaterniond& q = sample.tip_orientation;
+  q.w() = number(columns.tip_orientation[0]);
+  q.x() = number(columns.tip_orientation[1]);
+  q.y() = number(columns.tip_orientation[2]);
+  q.z() = number(columns.tip_orientation[3]);
+  if (columns.force) {
+    sample.tip_wrench.emplace();
+    linear(*sample.tip_wrench) = vector(*columns.force);
+    angular(*sample.tip_wrench) = vector(*columns.torque);
+  }
+  if (!reason.empty()) return std::nullopt;
+
+  // Trackers report a tool that they do not see as a zero quaternion; rounding never gets a real one below 0.5.
+  if (!(q.norm() > 0.5)) {
+    reason = "quaternion of norm " + numberText(q.norm()) + ": must be near 1";
+    return std::nullopt;
+  }
+  q.normalize();
+  if (so_far.samples.empty()) return sample;
+  const RecordedSample& last = so_far.samples.back();
+  if (!(sample.time > last.time)) {
+    reason = "time " + numberText(sample.time) + " s: must be after " + numberText(last.time) + " s of line " +
+             std::to_string(last.line);
+    return std::nullopt;
+  }
+  if (q.dot(last.tip_orientation) < 0.0) q.coeffs() = -q.coeffs();
+  return sample;
+}
+
+}  // namespace
+
+Recording parseRecording(const std::string& csv, const std::string& name) {
+  FaultList faults("recording " + name);
+  Recording recording;
+  recording.name = name;
+  std::istringstream text(csv);
+  std::string line;
+  int line_number = 1;
+  std::getline(text, line);
+  const RecordingColumns columns = findColumns(line, recording.warnings, faults);
+  faults.throwIfAny();
+  recording.absolute = columns.absolute;
+
+  while (std::getline(text, line)) {
+    ++line_number;
+    const std::vector<std::string> fields = splitCsvLine(line);
+    if (fields.size() == 1 && fields[0].empty()) continue;  // blank lines carry nothing that could be lost
+    std::string reason;
+    std::optional<RecordedSample> sample = readSample(columns, fields, recording, reason);
+    if (!sample) {
+      recording.warnings.push_back("line " + std::to_string(line_number) + ": " + reason);
+      continue;
+    }
+    sample->line = line_number;
+    recording.samples.push_back(std::move(*sample));
+  }
+  if (recording.samples.empty()) {
+    faults.add("no usable line");
+    for (const std::string& warning : recording.warnings) faults.add(warning);
+  }
+  faults.throwIfAny();
+  return recording;
+}
+
+Recording loadRecording(const std::string& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  if (file) text << file.rdbuf();
+  if (!file || text.fail())
+    throw ConfigurationError("recording " + path, {"cannot be read: must be the path of a CSV file"});
+  return parseRecording(text.str(), path);
+}
+
+std::vector<Pressures> gaugePressures(const Recording& recording, double rest_window) {
+  Pressures rest = Pressures::Zero(recording.channelCount());
+  if (recording.absolute) {
+    int count = 0;
+    for (const RecordedSample& sample : recording.samples) {
+      if (count > 0 && sample.time - recording.samples.front().time > rest_window) break;
+      rest += sample.pressures;
+      ++count;
+    }
+    rest /= count;
+  }
+  std::vector<Pressures> gauge;
+  gauge.reserve(recording.samples.size());
+  for (const RecordedSample& sample : recording.samples) gauge.push_back(sample.pressures - rest);
+  return gauge;
+}
+
+std::vector<int> quasiStaticSamples(const Recording& recording, const QuasiStaticRule& rule) {
+  const std::vector<RecordedSample>& samples = recording.samples;
+  const int count = static_cast<int>(samples.size());
+  std::vector<bool> dropped(count, false);
+  for (int i = 0; i < count; ++i) {
+    for (int j = i + 1; j < count && samples[j].time - samples[i].time <= rule.window + 1e-9; ++j) {
+      const double change = (samples[j].pressures - samples[i].pressures).cwiseAbs().maxCoeff();
+      if (!(change > rule.change)) continue;
+      int k = i;
+      while (k > 0 && samples[k - 1].time >= samples[i].time - rule.before) --k;
+      for (; k < count && samples[k].time <= samples[j].time + rule.after; ++k) dropped[k] = true;
+    }
+  }
+  std::vector<int> kept;
+  for (int k = 0; k < count; ++k)
+    if (!dropped[k]) kept.push_back(k);
+  return kept;
+}
+
+bool isUnloaded(const RecordedSample& sample, double force) {
+  return !sample.tip_wrench || linear(*sample.tip_wrench).norm() < force;
+}
+
+}  // namespace live_stiffness

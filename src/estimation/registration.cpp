@@ -1,0 +1,87 @@
+#include "live_stiffness/estimation/registration.h"
+
+#include <fstream>
+#include <locale>
+#include <sstream>
+
+#include "live_stiffness/yaml_map.h"
+
+namespace live_stiffness {
+namespace {
+
+Pose readPose(YamlMap& document, const std::string& key, FaultList& faults) {
+  constexpr double kSmallestNorm = 1e-3;  // below, the direction of a rounded quaternion means nothing
+  Pose X;
+  const YAML::Node node = document.child(key);
+  if (!node.IsDefined()) {
+    document.fault(key + " is missing: must be {position_m: [x, y, z], quaternion_wxyz: [w, x, y, z]}");
+    return X;
+  }
+  YamlMap map(node, key, faults);
+  X.p = map.vector("position_m");
+  const std::vector<double> wxyz = map.numbers("quaternion_wxyz", 4);
+  if (wxyz.size() == 4) {
+    const Eigen::Quaterniond q(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
+    if (q.coeffs().allFinite()) {  // otherwise the fault is there already
+      if (q.norm() >= kSmallestNorm) X.R = q.normalized().toRotationMatrix();
+      else map.fault("quaternion_wxyz", "norm is " + numberText(q.norm()) + ": must be at least 0.001, should be 1");
+    }
+  }
+  map.finish();
+  return X;
+}
+
+void writePose(std::ostream& text, const std::string& key, const Pose& X) {
+  const Eigen::Quaterniond q(X.R);
+  text << key << ":\n"
+       << "  position_m: [" << X.p.x() << ", " << X.p.y() << ", " << X.p.z() << "]\n"
+       << "  quaternion_wxyz: [" << q.w() << ", " << q.x() << ", " << q.y() << ", " << q.z() << "]\n";
+}
+
+}  // namespace
+
+Registration parseRegistration(const std::string& yaml, const std::string& name) {
+  FaultList faults("registration " + name);
+  Registration registration;
+  try {
+    const YAML::Node document = YAML::Load(yaml);
+    YamlMap map(document, "", faults);
+    registration.X_AB = readPose(map, "base_in_tracker", faults);
+    registration.X_TS = readPose(map, "sensor_on_tip", faults);
+    map.finish();
+  } catch (const YAML::Exception& error) {
+    const std::string line = error.mark.is_null() ? "" : " (line " + std::to_string(error.mark.line + 1) + ")";
+    faults.add("not YAML: " + error.msg + line);
+  }
+  faults.throwIfAny();
+  return registration;
+}
+
+Registration loadRegistrationFile(const std::string& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  if (file) text << file.rdbuf();
+  if (!file || text.fail())
+    throw ConfigurationError("registration " + path, {"cannot be read: must be the path of a YAML file"});
+  return parseRegistration(text.str(), path);
+}
+
+std::string registrationText(const Registration& registration, const std::string& comment) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(17);
+  std::istringstream lines(comment);
+  for (std::string line; std::getline(lines, line);) text << "# " << line << "\n";
+  writePose(text, "base_in_tracker", registration.X_AB);
+  writePose(text, "sensor_on_tip", registration.X_TS);
+  return text.str();
+}
+
+void saveRegistrationFile(const std::string& path, const Registration& registration, const std::string& comment) {
+  std::ofstream file(path);
+  file << registrationText(registration, comment);
+  file.close();
+  if (!file) throw ConfigurationError("registration " + path, {"cannot be written: is its folder there?"});
+}
+
+}  // namespace live_stiffness

@@ -1,0 +1,202 @@
+#include "live_stiffness/estimation/registration_fit.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "live_stiffness/checks.h"
+
+namespace live_stiffness {
+namespace {
+
+// Rotation R with the largest trace(R^T M): polar factor of M, reflections excluded.
+Matrix3 nearestRotation(const Matrix3& M) {
+  const Eigen::JacobiSVD<Matrix3> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Vector3 signs = Vector3::Ones();
+  if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0) signs.z() = -1.0;
+  return svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+}
+
+// Kabsch's method with a faint preference for no rotation, which decides what the vectors leave open (all parallel,
+// or all zero) and is far below what the fit corrects afterwards.
+Matrix3 startRotation(const Matrix3& sum_of_outer_products) {
+  const double scale = sum_of_outer_products.norm();
+  return nearestRotation(sum_of_outer_products + (1e-6 * scale + 1e-300) * Matrix3::Identity());
+}
+
+// The least-squares problem with p_AB eliminated: everything relative to its mean over the samples.
+class CentredProblem {
+ public:
+  CentredProblem(const std::vector<Pose>& X_BT, const std::vector<Pose>& X_AS) : X_BT_(X_BT), X_AS_(X_AS) {
+    Matrix3 sum_BT = Matrix3::Zero(), sum_AS = Matrix3::Zero();
+    double squares = 0.0;
+    for (size_t i = 0; i < X_BT.size(); ++i) {
+      p_mean_ += X_BT[i].p / count();
+      y_mean_ += X_AS[i].p / count();
+      sum_BT += X_BT[i].R;
+      sum_AS += X_AS[i].R;
+      squares += X_BT[i].p.squaredNorm() / count();
+    }
+    R_mean_ = sum_BT / count();
+    rotation_BT_ = nearestRotation(sum_BT);
+    rotation_AS_ = nearestRotation(sum_AS);
+    lever_ = std::max(std::sqrt(squares), 1e-9);
+  }
+
+  Matrix3 startFromPositions() const {
+    Matrix3 sum = Matrix3::Zero();
+    for (size_t i = 0; i < X_BT_.size(); ++i)
+      sum += (X_AS_[i].p - y_mean_) * (X_BT_[i].p - p_mean_).transpose();
+    return startRotation(sum);
+  }
+
+  Matrix3 startFromOrientations() const {
+    Matrix3 sum = Matrix3::Zero();
+    for (size_t i = 0; i < X_BT_.size(); ++i)
+      sum += logSo3(X_AS_[i].R * rotation_AS_.transpose()) * logSo3(X_BT_[i].R * rotation_BT_.transpose()).transpose();
+    return startRotation(sum);
+  }
+
+  double cost(const Matrix3& R_AB, const Vector3& offset) const {
+    double sum = 0.0;
+    for (size_t i = 0; i < X_BT_.size(); ++i) sum += (R_AB * arm(i, offset) - (X_AS_[i].p - y_mean_)).squaredNorm();
+    return sum / count();
+  }
+
+  // Normal matrix and gradient with respect to [lever * turn of R_AB (base side), offset], per sample.
+  void linearize(const Matrix3& R_AB, const Vector3& offset, Matrix6& normal, Vector6& gradient) const {
+    normal.setZero();
+    gradient.setZero();
+    for (size_t i = 0; i < X_BT_.size(); ++i) {
+      const Vector3 at = R_AB * arm(i, offset);
+      Matrix3X6 J;
+      J.leftCols<3>() = hat(at) / -lever_;
+      J.rightCols<3>() = R_AB * (X_BT_[i].R - R_mean_);
+      normal += J.transpose() * J / count();
+      gradient += J.transpose() * (at - (X_AS_[i].p - y_mean_)) / count();
+    }
+  }
+
+  Vector3 basePosition(const Matrix3& R_AB, const Vector3& offset) const {
+    return y_mean_ - R_AB * (p_mean_ + R_mean_ * offset);
+  }
+  double lever() const { return lever_; }
+
+ private:
+  double count() const { return static_cast<double>(X_BT_.size()); }
+  Vector3 arm(size_t i, const Vector3& offset) const {
+    return X_BT_[i].p - p_mean_ + (X_BT_[i].R - R_mean_) * offset;
+  }
+
+  const std::vector<Pose>& X_BT_;
+  const std::vector<Pose>& X_AS_;
+  Vector3 p_mean_ = Vector3::Zero(), y_mean_ = Vector3::Zero();
+  Matrix3 R_mean_, rotation_BT_, rotation_AS_;
+  double lever_ = 1.0;  // rms distance of the tip from the base, m: makes turns and offsets comparable
+};
+
+struct Estimate {
+  Matrix3 R_AB = Matrix3::Identity();
+  Vector3 offset = Vector3::Zero();
+  double cost = 0.0;
+};
+
+// Gauss-Newton along the directions that the data determine, with step halving.
+Estimate descend(const CentredProblem& problem, const Matrix3& start) {
+  constexpr int kMaxIterations = 100;
+  Estimate best{start, Vector3::Zero(), 0.0};
+  best.cost = problem.cost(best.R_AB, best.offset);
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+    Matrix6 normal;
+    Vector6 gradient;
+    problem.linearize(best.R_AB, best.offset, normal, gradient);
+    const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(normal);
+    Vector6 step = Vector6::Zero();
+    for (int k = 0; k < 6; ++k) {
+      const double value = eigen.eigenvalues()[k];
+      if (value < kWeakSensitivity * kWeakSensitivity) continue;
+      step -= eigen.eigenvectors().col(k) * (eigen.eigenvectors().col(k).dot(gradient) / value);
+    }
+    bool better = false;
+    for (double factor = 1.0; factor > 1e-3 && !better; factor *= 0.5) {
+      Estimate next;
+      next.R_AB = expSo3(factor / problem.lever() * step.head<3>()) * best.R_AB;
+      next.offset = best.offset + factor * step.tail<3>();
+      next.cost = problem.cost(next.R_AB, next.offset);
+      better = next.cost < best.cost;
+      if (better) best = next;
+    }
+    if (!better || step.norm() < 1e-13) break;
+  }
+  return best;
+}
+
+void markUndetermined(const CentredProblem& problem, const Estimate& estimate, RegistrationFit& fit) {
+  Matrix6 normal;
+  Vector6 gradient;
+  problem.linearize(estimate.R_AB, estimate.offset, normal, gradient);
+  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(normal);
+  constexpr double kTakesPart = 0.1;  // share of an undetermined direction that counts
+  fit.weakest_sensitivity = std::sqrt(std::max(eigen.eigenvalues()[0], 0.0));
+  fit.base_rotation_determined = fit.sensor_offset_determined = true;
+  for (int k = 0; k < 6; ++k) {
+    if (eigen.eigenvalues()[k] >= kWeakSensitivity * kWeakSensitivity) continue;
+    if (eigen.eigenvectors().col(k).head<3>().norm() > kTakesPart) fit.base_rotation_determined = false;
+    if (eigen.eigenvectors().col(k).tail<3>().norm() > kTakesPart) fit.sensor_offset_determined = false;
+  }
+}
+
+void checkSamples(const std::vector<Pose>& X_BT, const std::vector<Pose>& X_AS) {
+  FaultList faults("registration fit");
+  if (X_BT.size() != X_AS.size())
+    faults.add(std::to_string(X_BT.size()) + " predicted and " + std::to_string(X_AS.size()) +
+               " measured poses: must be the same number");
+  if (X_BT.size() < 3) faults.add(std::to_string(X_BT.size()) + " samples: must be at least 3");
+  const auto count_bad = [&](const std::vector<Pose>& poses, const std::string& what) {
+    const auto bad = std::count_if(poses.begin(), poses.end(),
+                                   [](const Pose& X) { return !X.p.allFinite() || !X.R.allFinite(); });
+    if (bad > 0) faults.add(std::to_string(bad) + " " + what + " poses are not finite");
+  };
+  count_bad(X_BT, "predicted");
+  count_bad(X_AS, "measured");
+  faults.throwIfAny();
+}
+
+}  // namespace
+
+RegistrationFit fitRegistration(const std::vector<Pose>& X_BT, const std::vector<Pose>& X_AS) {
+  checkSamples(X_BT, X_AS);
+  const CentredProblem problem(X_BT, X_AS);
+  Estimate best = descend(problem, problem.startFromPositions());
+  const Estimate other = descend(problem, problem.startFromOrientations());
+  if (other.cost < best.cost) best = other;
+
+  RegistrationFit fit;
+  markUndetermined(problem, best, fit);
+  fit.registration.X_AB = {best.R_AB, problem.basePosition(best.R_AB, best.offset)};
+  Matrix3 sum = Matrix3::Zero();
+  for (size_t i = 0; i < X_BT.size(); ++i) sum += (best.R_AB * X_BT[i].R).transpose() * X_AS[i].R;
+  fit.registration.X_TS = {nearestRotation(sum), best.offset};
+
+  std::vector<double> angles;
+  for (size_t i = 0; i < X_BT.size(); ++i) {
+    const Pose predicted = fit.registration.sensorPose(X_BT[i]);
+    fit.residuals.push_back((predicted.p - X_AS[i].p).norm());
+    angles.push_back(logSo3(predicted.R.transpose() * X_AS[i].R).norm());
+  }
+  fit.position = summarizeErrors(fit.residuals);
+  fit.rotation = summarizeErrors(std::move(angles));
+  return fit;
+}
+
+std::string RegistrationFit::advice() const {
+  if (determined()) return "";
+  std::string what;
+  if (!base_rotation_determined) what = "the base's rotation";
+  if (!sensor_offset_determined) what += (what.empty() ? "" : " and ") + std::string("the sensor's offset");
+  return "the motion does not determine " + what + " (sensitivity " + numberText(weakest_sensitivity) + " < " +
+         numberText(kWeakSensitivity) + "): bend the robot well towards at least two sides, or measure the offset";
+}
+
+}  // namespace live_stiffness

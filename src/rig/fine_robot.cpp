@@ -1,0 +1,196 @@
+#include "live_stiffness/rig/fine_robot.h"
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "live_stiffness/checks.h"
+
+namespace live_stiffness {
+namespace {
+
+// Derivative of [stretch; curvature x, y] by the share of the load that is on:
+//   dlam = lam F / (E A(lam)),   du = (E I(lam))^-1 T(1) / sqrt(lam), the moment arm shrinking with the section.
+Vector3 loadRate(const SectionMoments& section, double force, const Vector3& moment, const Vector3& state) {
+  const double lam = state[0];
+  const double E = section.youngsModulus();
+  Vector3 rate;
+  rate[0] = lam * force / (E * section.area(lam));
+  rate.tail<2>() = section.secondMoments(lam).inverse() * moment.head<2>() / (E * std::sqrt(lam));
+  return rate;
+}
+
+// Runge-Kutta over the load; false if the section's area or moments run out on the way.
+bool followLoad(const SectionMoments& section, double force, const Vector3& moment, Vector3& state) {
+  const double h = 1.0 / FineRobot::kLoadSteps;
+  state = Vector3(1.0, 0.0, 0.0);
+  for (int step = 0; step < FineRobot::kLoadSteps; ++step) {
+    const Vector3 k1 = loadRate(section, force, moment, state);
+    if (!section.isValidAt(state[0] + 0.5 * h * k1[0])) return false;
+    const Vector3 k2 = loadRate(section, force, moment, state + 0.5 * h * k1);
+    if (!section.isValidAt(state[0] + 0.5 * h * k2[0])) return false;
+    const Vector3 k3 = loadRate(section, force, moment, state + 0.5 * h * k2);
+    if (!section.isValidAt(state[0] + h * k3[0])) return false;
+    const Vector3 k4 = loadRate(section, force, moment, state + h * k3);
+    state += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+    if (!section.isValidAt(state[0])) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+FineRobot::FineRobot(Scene scene) : scene_(std::move(scene)) {
+  if (scene_.segmentCount() == 0) throw ConfigurationError("fine robot", {"chain: must hold at least one segment"});
+}
+
+bool FineRobot::loadSegments(PressuresRef pressures, std::vector<LoadedSegment>& segments) const {
+  if (pressures.size() != scene_.chamberCount() || !pressures.allFinite()) return false;
+  int first = 0;
+  for (const Body& body : scene_.chain) {
+    const auto* segment = std::get_if<Segment>(&body);
+    if (!segment) continue;
+    const Chambers& chambers = segment->section.chambers;
+    const auto own = pressures.segment(first, chambers.count());
+    first += chambers.count();
+    const SectionMoments section(segment->section);
+    Vector3 state;
+    if (!followLoad(section, chambers.actuationForce(own), chambers.actuationMoment(own, 1.0), state)) return false;
+    LoadedSegment& loaded = segments.emplace_back();
+    loaded.length = state[0] * segment->length;
+    loaded.rest_curvature << state[1], state[2], 0.0;
+    loaded.c = section.complianceDensity(state[0]);
+    loaded.mass = segment->mass();
+  }
+  return true;
+}
+
+bool FineRobot::inRange(PressuresRef pressures) const {
+  std::vector<LoadedSegment> segments;
+  return loadSegments(pressures, segments);
+}
+
+FineRobot::RodState FineRobot::integrateChain(const std::vector<LoadedSegment>& segments, const Vector3& gravity,
+                                              const Wrench& tip_wrench, const Vector3& base_moment) const {
+  // What the part beyond exerts: all weight and the tip force, less what is passed on the way.
+  Vector3 n = linear(tip_wrench) + scene_.tip_mass * gravity;
+  for (const LoadedSegment& segment : segments) n += segment.mass * gravity;
+  for (const Body& body : scene_.chain)
+    if (const auto* link = std::get_if<Link>(&body)) n += link->mass * gravity;
+
+  RodState state;
+  state.m = base_moment;
+  auto segment = segments.begin();
+  for (const Body& body : scene_.chain) {
+    if (const auto* link = std::get_if<Link>(&body)) {
+      const Vector3 along = link->length * (state.q * Vector3::UnitZ());
+      const Vector3 weight = link->mass * gravity;
+      n -= weight;
+      state.m -= along.cross(n) + 0.5 * along.cross(weight);
+      state.p += along;
+      continue;
+    }
+    const Vector3 line_load = segment->mass * gravity / segment->length;
+    const auto rate = [&](const RodState& at, double s) {
+      const Matrix3 R = at.q.toRotationMatrix();  // at.q is not quite unit inside a step; normalised below
+      const Vector3 force = n - s * line_load;
+      const Vector3 u = segment->rest_curvature + segment->c.bending_torsion * (R.transpose() * at.m);
+      RodState d;
+      d.p = R * (Vector3::UnitZ() + segment->c.shear_elongation * (R.transpose() * force));
+      d.q.coeffs() = 0.5 * (at.q * Eigen::Quaterniond(0.0, u.x(), u.y(), u.z())).coeffs();
+      d.m = -d.p.cross(force);
+      return d;
+    };
+    const auto moved = [](const RodState& from, const RodState& d, double h) {
+      RodState to{from.q, from.p + h * d.p, from.m + h * d.m};
+      to.q.coeffs() += h * d.q.coeffs();
+      to.q.normalize();
+      return to;
+    };
+    const double h = segment->length / kRodSteps;
+    for (int step = 0; step < kRodSteps; ++step) {
+      const double s = step * h;
+      const RodState k1 = rate(state, s);
+      const RodState k2 = rate(moved(state, k1, 0.5 * h), s + 0.5 * h);
+      const RodState k3 = rate(moved(state, k2, 0.5 * h), s + 0.5 * h);
+      const RodState k4 = rate(moved(state, k3, h), s + h);
+      RodState sum;
+      sum.q.coeffs() = k1.q.coeffs() + 2.0 * k2.q.coeffs() + 2.0 * k3.q.coeffs() + k4.q.coeffs();
+      sum.p = k1.p + 2.0 * k2.p + 2.0 * k3.p + k4.p;
+      sum.m = k1.m + 2.0 * k2.m + 2.0 * k3.m + k4.m;
+      state = moved(state, sum, h / 6.0);
+    }
+    n -= segment->mass * gravity;
+    ++segment;
+  }
+  return state;
+}
+
+// Moment left over at T: what the rod carries there less what acts there.
+Vector3 FineRobot::residual(const RodState& end, const Vector3& gravity, const Wrench& tip_wrench) const {
+  const Vector3 arm = end.q * scene_.tip_offset;
+  return end.m - angular(tip_wrench) - arm.cross(linear(tip_wrench) + scene_.tip_mass * gravity);
+}
+
+bool FineRobot::newton(const std::vector<LoadedSegment>& segments, const Vector3& gravity, const Wrench& tip_wrench,
+                       Vector3& base_moment, RodState& end) const {
+  constexpr int kMaxIterations = 50;
+  // Moment that bends the robot by about a radian: the scale of all moments here.
+  double bend_per_moment = 0.0;
+  for (const LoadedSegment& segment : segments) bend_per_moment += segment.length * segment.c.bending_torsion(0, 0);
+  const double unit = 1.0 / bend_per_moment;
+
+  Vector3 m0 = base_moment;
+  end = integrateChain(segments, gravity, tip_wrench, m0);
+  Vector3 r = residual(end, gravity, tip_wrench);
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+    if (r.norm() < 1e-12 * unit) {  // some ten times the rounding of kRodSteps steps
+      base_moment = m0;
+      return true;
+    }
+    Matrix3 J;
+    for (int k = 0; k < 3; ++k) {
+      const double h = 1e-6 * unit;
+      const Vector3 ahead = m0 + h * Vector3::Unit(k), behind = m0 - h * Vector3::Unit(k);
+      J.col(k) = (residual(integrateChain(segments, gravity, tip_wrench, ahead), gravity, tip_wrench) -
+                  residual(integrateChain(segments, gravity, tip_wrench, behind), gravity, tip_wrench)) / (2.0 * h);
+    }
+    const Vector3 step = -J.fullPivLu().solve(r);
+    bool better = false;
+    for (double factor = 1.0; factor > 1e-3 && !better; factor *= 0.5) {
+      const Vector3 next = m0 + factor * step;
+      const RodState next_end = integrateChain(segments, gravity, tip_wrench, next);
+      const Vector3 next_r = residual(next_end, gravity, tip_wrench);
+      better = next_r.norm() < r.norm();
+      if (better) {
+        m0 = next;
+        end = next_end;
+        r = next_r;
+      }
+    }
+    if (!better) break;
+  }
+  base_moment = m0;
+  return r.norm() < 1e-10 * unit;  // rounding stopped it, and the pose is good to 1e-10 of the length
+}
+
+std::optional<Pose> FineRobot::solve(PressuresRef pressures, const Wrench& tip_wrench) {
+  std::vector<LoadedSegment> segments;
+  if (!tip_wrench.allFinite() || !loadSegments(pressures, segments)) return std::nullopt;
+  const Vector3 gravity = scene_.gravity.value_or(Vector3::Zero());
+  RodState end;
+  Vector3 base_moment = base_moment_;
+  if (!newton(segments, gravity, tip_wrench, base_moment, end)) {
+    // From nothing to the full load, which stays on the branch that the robot is on.
+    base_moment.setZero();
+    constexpr int kLoadIncrements = 40;
+    for (int k = 1; k <= kLoadIncrements; ++k) {
+      const double share = static_cast<double>(k) / kLoadIncrements;
+      if (!newton(segments, share * gravity, share * tip_wrench, base_moment, end)) return std::nullopt;
+    }
+  }
+  base_moment_ = base_moment;
+  const Matrix3 R = end.q.toRotationMatrix();
+  return Pose{R, end.p + R * scene_.tip_offset};
+}
+
+}  // namespace live_stiffness
