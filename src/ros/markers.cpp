@@ -116,12 +116,12 @@ void addTips(const Vector3& predicted, const std::optional<Pose>& measured, cons
 
 Marker eigenvalueText(const Estimate& estimate, bool stale, const MarkerStyle& style, const ros::Time& stamp) {
   Marker marker = newMarker(style, stamp, "text", 0, Marker::TEXT_VIEW_FACING);
-  marker.pose.position = toPoint(estimate.solution.X_BT.p + Vector3(0.0, 0.0, 0.025));
-  marker.scale.z = 0.007;
+  marker.pose.position = toPoint(estimate.solution.X_BT.p + Vector3(0.0, 0.0, 0.022));
+  marker.scale.z = 0.005;
   char text[160];
   const Vector3 cm_per_n = 100.0 * estimate.tip_ellipsoid.half_axes;
-  std::snprintf(text, sizeof text, "tip compliance\n%.3g / %.3g / %.3g cm/N%s", cm_per_n[0], cm_per_n[1], cm_per_n[2],
-                stale ? "\nSTALE" : "");
+  std::snprintf(text, sizeof text, "%.3g / %.3g / %.3g cm/N%s", cm_per_n[0], cm_per_n[1], cm_per_n[2],
+                stale ? " STALE" : "");
   marker.text = text;
   marker.color = stale ? color(1.0, 0.3, 0.2, 1.0) : color(1.0, 1.0, 1.0, 1.0);
   return marker;
@@ -138,12 +138,12 @@ MarkerArray makeMarkers(const Estimate& estimate, const std::vector<Station>& sa
     Marker marker = newMarker(style, stamp, "ellipsoids", static_cast<int>(i), Marker::SPHERE);
     const Station& station = estimate.stations[i];
     setEllipsoid(marker, ellipsoidOf(station.compliance.topLeftCorner<3, 3>()), station.X_BS.p, style.ellipsoid_scale);
-    marker.color = stale ? color(0.6, 0.6, 0.6, 0.35) : color(0.25, 0.55, 0.95, 0.35);
+    marker.color = stale ? color(0.6, 0.6, 0.6, 0.35) : color(0.35, 0.65, 1.0, 0.6);
     markers.markers.push_back(marker);
   }
   Marker tip = newMarker(style, stamp, "tip_ellipsoid", 0, Marker::SPHERE);
   setEllipsoid(tip, estimate.tip_ellipsoid, estimate.solution.X_BT.p, style.ellipsoid_scale);
-  tip.color = stale ? color(0.5, 0.5, 0.5, 0.5) : color(0.95, 0.55, 0.15, 0.5);
+  tip.color = stale ? color(0.5, 0.5, 0.5, 0.5) : color(1.0, 0.6, 0.15, 0.75);
   markers.markers.push_back(tip);
   addTips(estimate.solution.X_BT.p, measured_tip, style, stamp, markers);
   markers.markers.push_back(eigenvalueText(estimate, stale, style, stamp));

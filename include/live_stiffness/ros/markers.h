@@ -13,8 +13,8 @@ namespace live_stiffness {
 
 struct MarkerStyle {
   std::string frame;             // base frame
-  double ellipsoid_scale = 0.2;  // half axis drawn per compliance, m per (m/N)
-  double tube_radius = 0.0025;   // of the backbone, m
+  double ellipsoid_scale = 0.3;  // half axis drawn per compliance, m per (m/N)
+  double tube_radius = 0.0015;   // of the backbone, m
 };
 
 // Markers, by namespace: `backbone` (tube, blue to red with the local compliance), `ellipsoids` (translational

@@ -35,7 +35,7 @@ struct NodeParameters {
 
   std::string base_frame;  // B
   std::string tip_frame;   // T, as predicted
-  double ellipsoid_scale = 0.2;  // m of half axis per m/N, that is, the force in N whose displacement is drawn
+  double ellipsoid_scale = 0.3;  // m of half axis per m/N, that is, the force in N whose displacement is drawn
   double marker_rate = 10.0;     // Hz
 };
 
