@@ -47,7 +47,6 @@ TEST(TangentCompliance, EqualsDifferencesOfTheResolvedTip) {
       const Matrix6 differences = complianceByDifferences(tip, wrench, solution.compliance, length);
       const double error = complianceError(solution.compliance, differences, length);
       EXPECT_LT(error, 1e-6) << solution.compliance << "\ndifferences\n" << differences;
-      RecordProperty("error", std::to_string(error * 1e9) + "e-9");
     }
 }
 
