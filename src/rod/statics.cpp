@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -119,7 +120,8 @@ double StaticsSolver::bendingOf(const Vector3& moment, const Backbone& backbone)
 }
 
 bool StaticsSolver::newton(const DeadLoads& loads, Backbone& backbone, int max_iterations, StaticsReport& report) {
-  Vector3 m0 = base_moment_, accepted_m0 = m0, step, residual, accepted_residual;
+  Vector3 m0 = base_moment_, accepted_m0 = m0, residual = Vector3::Zero();
+  Vector3 step = residual, accepted_residual = residual;
   double accepted = kInfinity, damping = 1.0;
   bool have_inverse = warm_, inverse_is_fresh = false;
   const auto refresh = [&] {
@@ -169,16 +171,31 @@ bool StaticsSolver::newton(const DeadLoads& loads, Backbone& backbone, int max_i
   return false;
 }
 
+// Loads grow from zero in steps of adaptive size. The base moment of the next step is extrapolated from the last three:
+// on a long hanging chain a shot strays exponentially, so that a moment scaled with the load would not do.
 bool StaticsSolver::continuation(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
-  double reached = 0.0, advance = 0.25;
-  Vector3 good = Vector3::Zero();
-  while (reached < 1.0) {
-    const double trial = std::min(1.0, reached + advance);
-    base_moment_ = reached > 0.0 ? Vector3(good * (trial / reached)) : Vector3::Zero();
+  std::array<double, 3> reached = {0.0, 0.0, 0.0};  // fractions of the load, newest first
+  std::array<Vector3, 3> moments = {Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
+  int known = 1;  // without load there is no moment
+  double advance = 0.25;
+  while (reached[0] < 1.0) {
+    const double trial = std::min(1.0, reached[0] + advance);
+    base_moment_.setZero();
+    for (int i = 0; i < known; ++i) {
+      double weight = 1.0;  // Lagrange's
+      for (int j = 0; j < known; ++j)
+        if (j != i) weight *= (trial - reached[j]) / (reached[i] - reached[j]);
+      base_moment_ += weight * moments[i];
+    }
     warm_ = false;
     if (newton(loads.scaled(trial), backbone, 12, report)) {
-      reached = trial;
-      good = base_moment_;
+      for (int i = 2; i > 0; --i) {
+        reached[i] = reached[i - 1];
+        moments[i] = moments[i - 1];
+      }
+      reached[0] = trial;
+      moments[0] = base_moment_;
+      known = std::min(known + 1, 3);
       advance *= 1.5;
     } else {
       advance *= 0.5;

@@ -1,0 +1,55 @@
+#include "live_stiffness/checks.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace live_stiffness {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+TEST(Range, HoldsItsBoundsUnlessTheyAreOpen) {
+  const Range closed{0.0, 1.0}, open{0.0, 1.0, true, true};
+  EXPECT_TRUE(closed.contains(0.0) && closed.contains(1.0) && closed.contains(0.5));
+  EXPECT_FALSE(closed.contains(-1e-300) || closed.contains(1.0000001));
+  EXPECT_FALSE(open.contains(0.0) || open.contains(1.0));
+  EXPECT_TRUE(open.contains(1e-300));
+}
+
+TEST(Range, NeverHoldsNaNOrInfinity) {
+  for (const Range& range : {Range::finite(), Range::positive(), Range::nonnegative(), Range{-kInfinity, kInfinity}})
+    EXPECT_FALSE(range.contains(std::nan("")) || range.contains(kInfinity) || range.contains(-kInfinity));
+}
+
+TEST(Range, SaysWhatItHolds) {
+  EXPECT_EQ(Range::finite().text(), "any finite number");
+  EXPECT_EQ(Range::positive().text(), "> 0");
+  EXPECT_EQ(Range::nonnegative().text(), ">= 0");
+  EXPECT_EQ((Range{-1.0, 0.5, true, false}).text(), "> -1 and <= 0.5");
+}
+
+TEST(FaultList, ThrowsAllFaultsTogether) {
+  FaultList faults("pump");
+  faults.check("speed", 2.0, {0.0, 1.0});
+  faults.check("flow", 0.5, {0.0, 1.0});
+  faults.check("volume", std::nan(""), Range::positive());
+  try {
+    faults.throwIfAny();
+    FAIL() << "did not throw";
+  } catch (const ConfigurationError& error) {
+    EXPECT_STREQ(error.what(), "pump: 2 faults\n  - speed = 2: must be >= 0 and <= 1\n  - volume = nan: must be > 0");
+    EXPECT_EQ(error.faults().size(), 2u);
+  }
+}
+
+TEST(FaultList, WithoutFaultsDoesNotThrow) {
+  FaultList faults("pump");
+  faults.check("flow", 0.5, {0.0, 1.0});
+  EXPECT_TRUE(faults.empty());
+  EXPECT_NO_THROW(faults.throwIfAny());
+}
+
+}  // namespace
+}  // namespace live_stiffness

@@ -1,0 +1,111 @@
+#include "live_stiffness/compliance/material_compliance.h"
+
+#include <gtest/gtest.h>
+
+#include "live_stiffness/compliance/stiffness_model.h"
+#include "support/errors.h"
+#include "support/matrix_near.h"
+#include "support/random_source.h"
+#include "support/scenes.h"
+
+namespace live_stiffness {
+namespace {
+
+struct Solved {
+  StiffnessModel model;
+  StiffnessWorkspace workspace;
+  StiffnessSolution solution;
+
+  Solved(const Scene& scene, double accuracy, const Pressures& pressures)
+      : model(scene, accurateTo(accuracy)), workspace(model.makeWorkspace()),
+        solution(model.solve(pressures, Wrench::Zero(), workspace)) {
+    EXPECT_TRUE(solution.status.ok());
+  }
+  Station at(int segment, double fraction) const { return model.station(workspace, segment, fraction); }
+};
+
+const Pressures kTwelve = bars(0.8, {1, 1, 0.2, 0.2, 0, 0, 0.3, 0.3, 1, 1, 0, 0});
+
+// (10) by Simpson's rule over 400 sections a segment, from nothing but their poses.
+Matrix6 complianceBySimpson(const Solved& solved, int segment, double fraction) {
+  const Vector3 p = solved.at(segment, fraction).X_BS.p;
+  Matrix6 C = Matrix6::Zero();
+  for (int k = 0; k <= segment; ++k) {
+    const RestState& rest = solved.workspace.backbone().rest[k];
+    const double to = k == segment ? fraction : 1.0;
+    const double length = to * solved.workspace.backbone().length(solved.model.scene(), k);
+    constexpr int kPanels = 400;
+    for (int i = 0; i <= kPanels; ++i) {
+      const double weight = length * (i == 0 || i == kPanels ? 1.0 : i % 2 ? 4.0 : 2.0) / (3.0 * kPanels);
+      const Pose X = solved.at(k, to * i / kPanels).X_BS;
+      Matrix6 c = Matrix6::Zero();
+      c.topLeftCorner<3, 3>() = rest.c.shear_elongation;
+      c.bottomRightCorner<3, 3>() = rest.c.bending_torsion;
+      C += weight * shiftCompliance(complianceInBodyAxes(c, X.R.transpose()), p - X.p);
+    }
+  }
+  return C;
+}
+
+TEST(Station, ComplianceIsTheIntegralOfTheDensityUpToIt) {
+  for (const Scene& scene : {paperScene(2), weightlessPaperScene(2)}) {
+    const Solved solved(scene, 1e-9, kTwelve);
+    for (int segment : {0, 1})
+      for (double fraction : {0.1, 0.37, 0.5, 1.0}) {
+        // Simpson with 400 panels: 1e-11; the model's accuracy of 1e-9 is what counts.
+        const Matrix6 expected = complianceBySimpson(solved, segment, fraction);
+        EXPECT_LT(complianceError(solved.at(segment, fraction).compliance, expected, 0.08), 1e-8)
+            << segment << " " << fraction;
+      }
+  }
+}
+
+TEST(Station, AtAnyFractionEqualsAFinerSolution) {
+  for (const Scene& scene : {paperScene(2), weightlessPaperScene(2), awkwardScene()}) {
+    const Solved coarse(scene, 1e-8, kTwelve), fine(scene, 1e-13, kTwelve);
+    for (int segment : {0, 1})
+      for (double fraction : {0.001, 0.1, 1.0 / 3.0, 0.5, 0.77, 0.999, 1.0}) {
+        const Station a = coarse.at(segment, fraction), b = fine.at(segment, fraction);
+        EXPECT_LT(complianceError(a.compliance, b.compliance, 0.08), 1e-7) << segment << " " << fraction;
+        EXPECT_LT(poseError(a.X_BS, b.X_BS, 0.08), 1e-7) << segment << " " << fraction;
+      }
+  }
+}
+
+TEST(Station, AtTheEndOfTheLastSegmentIsTheTip) {
+  for (const Scene& scene : {paperScene(2), weightlessPaperScene(2)}) {
+    const Solved solved(scene, 1e-9, kTwelve);
+    const Station end = solved.at(1, 1.0);
+    EXPECT_LT(complianceError(end.compliance, solved.solution.material_compliance, 0.08), 1e-14);
+    EXPECT_TRUE(matrixNear(end.X_BS.p, solved.solution.X_BT.p, 1e-16));
+    EXPECT_EQ(end.stretch, solved.workspace.backbone().rest[1].stretch);
+  }
+}
+
+TEST(Station, AtTheBaseIsRigid) {
+  const Station base = Solved(paperScene(2), 1e-9, kTwelve).at(0, 0.0);
+  EXPECT_TRUE(matrixNear(base.compliance, Matrix6::Zero(), 0.0));
+  EXPECT_TRUE(matrixNear(base.X_BS.p, Vector3::Zero(), 0.0));
+  EXPECT_TRUE(matrixNear(base.X_BS.R, Matrix3::Identity(), 0.0));
+}
+
+TEST(Station, FractionsBeyondTheEndsAreTheEnds) {
+  const Solved solved(paperScene(2), 1e-9, kTwelve);
+  EXPECT_TRUE(matrixNear(solved.at(0, -0.5).X_BS.p, solved.at(0, 0.0).X_BS.p, 0.0));
+  EXPECT_TRUE(matrixNear(solved.at(0, 1.5).X_BS.p, solved.at(0, 1.0).X_BS.p, 0.0));
+}
+
+TEST(MaterialCompliance, IsMovedByARigidOffsetAndByNothingElse) {
+  Scene offset = weightlessPaperScene(1);
+  const Pressures pressures = bars(0.9, {1, 1, 0.3, 0.3, 0, 0});
+  const Solved without(offset, 1e-9, pressures);
+  offset.tip_offset = Vector3(0.01, -0.02, 0.03);
+  offset.chain.push_back(Link{0.005, 0.0});
+  const Solved with(offset, 1e-9, pressures);
+  const Vector3 lever = without.solution.X_BT.R * Vector3(0.01, -0.02, 0.035);
+  const Matrix6 expected = shiftCompliance(without.solution.material_compliance, lever);
+  EXPECT_LT(complianceError(with.solution.material_compliance, expected, 0.04), 1e-14);
+}
+
+}  // namespace
+}  // namespace live_stiffness

@@ -1,0 +1,129 @@
+// solve() allocates nothing. An executable of its own, because it replaces malloc of the whole process: everything that
+// allocates ends there, operator new and Eigen's aligned memory alike.
+
+#include <gtest/gtest.h>
+
+#include <cerrno>
+#include <cstdlib>
+
+#include "support/random_source.h"
+#include "support/scenes.h"
+
+namespace {
+
+// Plain integers: thread_local storage or atomics with dynamic set-up could allocate themselves. Tests have one thread.
+bool g_counting = false;
+long g_allocations = 0;
+
+}  // namespace
+
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
+#define COUNTS_ALLOCATIONS 1
+extern "C" {
+void* __libc_malloc(size_t size);
+void* __libc_calloc(size_t count, size_t size);
+void* __libc_realloc(void* pointer, size_t size);
+void* __libc_memalign(size_t alignment, size_t size);
+
+void* malloc(size_t size) {
+  g_allocations += g_counting;
+  return __libc_malloc(size);
+}
+void* calloc(size_t count, size_t size) {
+  g_allocations += g_counting;
+  return __libc_calloc(count, size);
+}
+void* realloc(void* pointer, size_t size) {
+  g_allocations += g_counting;
+  return __libc_realloc(pointer, size);
+}
+void* aligned_alloc(size_t alignment, size_t size) {
+  g_allocations += g_counting;
+  return __libc_memalign(alignment, size);
+}
+int posix_memalign(void** pointer, size_t alignment, size_t size) {
+  g_allocations += g_counting;
+  *pointer = __libc_memalign(alignment, size);
+  return *pointer ? 0 : ENOMEM;
+}
+}
+#endif
+
+namespace live_stiffness {
+namespace {
+
+class Counting {
+ public:
+  Counting() {
+    g_allocations = 0;
+    g_counting = true;
+  }
+  ~Counting() { g_counting = false; }
+};
+
+class NoAllocation : public ::testing::Test {
+ protected:
+  void SetUp() override {
+#ifndef COUNTS_ALLOCATIONS
+    GTEST_SKIP() << "malloc can be replaced with glibc and without address sanitizer only";
+#endif
+  }
+};
+
+// Without this one a broken counter would let all the others pass.
+TEST_F(NoAllocation, IsNoticedWhenThereIsOne) {
+  {
+    const Counting counting;
+    Eigen::VectorXd vector = Eigen::VectorXd::Zero(100);
+    volatile double keep = vector[3];
+    (void)keep;
+  }
+  EXPECT_GT(g_allocations, 0);
+}
+
+TEST_F(NoAllocation, InAnySolveFromTheFirstOn) {
+  for (const Scene& scene : {paperScene(1), paperScene(2), weightlessPaperScene(2), awkwardScene()})
+    for (Stepping stepping : kSteppings)
+      for (double accuracy : {1e-6, 1e-13}) {
+        ModelOptions options = accurateTo(accuracy);
+        options.stepping = stepping;
+        const StiffnessModel model(scene, options);
+        StiffnessWorkspace workspace = model.makeWorkspace();
+        RandomSource random(71);
+        for (int i = 0; i < 30; ++i) {
+          const Pressures pressures = random.pairs(scene.chamberCount(), -0.3e5, 1.2e5);
+          const Wrench wrench = i % 3 == 0 ? Wrench(Wrench::Zero()) : random.wrench(0.05, 1e-3);
+          if (i % 5 == 0) workspace.reset();
+          const Counting counting;
+          model.solve(pressures, wrench, workspace);
+          ASSERT_EQ(g_allocations, 0) << "solve " << i << ", " << nameOf(stepping) << ", accuracy " << accuracy;
+        }
+      }
+}
+
+TEST_F(NoAllocation, InSolvesThatFail) {
+  const StiffnessModel model(paperScene(1), {});
+  StiffnessWorkspace workspace = model.makeWorkspace();
+  const Pressures good = Pressures::Constant(6, 5e4), high = Pressures::Constant(6, 1e6),
+                  nan = Pressures::Constant(6, std::nan("")), few = Pressures::Zero(5);
+  const Counting counting;
+  EXPECT_FALSE(model.solve(high, Wrench::Zero(), workspace).status.ok());
+  EXPECT_FALSE(model.solve(nan, Wrench::Zero(), workspace).status.ok());
+  EXPECT_FALSE(model.solve(few, Wrench::Zero(), workspace).status.ok());
+  EXPECT_FALSE(model.solve(good, Wrench::Constant(1e9), workspace).status.ok());
+  EXPECT_TRUE(model.solve(good, Wrench::Zero(), workspace).status.ok());
+  EXPECT_EQ(g_allocations, 0);
+}
+
+TEST_F(NoAllocation, InAStation) {
+  const StiffnessModel model(paperScene(2), {});
+  StiffnessWorkspace workspace = model.makeWorkspace();
+  const Pressures pressures = Pressures::Constant(12, 5e4);
+  const Counting counting;
+  model.solve(pressures, Wrench::Zero(), workspace);
+  model.station(workspace, 1, 0.3);
+  EXPECT_EQ(g_allocations, 0);
+}
+
+}  // namespace
+}  // namespace live_stiffness

@@ -1,0 +1,197 @@
+#include "live_stiffness/rod/statics.h"
+
+#include <gtest/gtest.h>
+
+#include "support/differences.h"
+#include "support/errors.h"
+#include "support/literal_rod.h"
+#include "support/matrix_near.h"
+#include "support/random_source.h"
+#include "support/scenes.h"
+
+namespace live_stiffness {
+namespace {
+
+const Wrench kTipForce = (Wrench() << 0.08, -0.05, -0.06, 0.0, 0.0, 0.0).finished();
+const Wrench kTipMoment = (Wrench() << 0.02, 0.03, -0.04, 3e-3, -4e-3, 2e-3).finished();
+
+struct Case {
+  const char* name;
+  Scene scene;
+};
+
+std::vector<Case> scenes() {
+  Scene oblique = paperScene(1);
+  oblique.gravity = Vector3(4.0, -5.0, -7.0);
+  return {{"one segment", paperScene(1)},
+          {"one segment, oblique gravity", oblique},
+          {"two segments", paperScene(2)},
+          {"two segments, heavy links, tip mass off the axis, oblique gravity", awkwardScene()}};
+}
+
+Pressures pressuresFor(const Scene& scene) {
+  RandomSource random(41);
+  return random.pairs(scene.chamberCount(), 0.0, 1.0e5);
+}
+
+TEST(TangentCompliance, EqualsDifferencesOfTheResolvedTip) {
+  for (const Case& c : scenes())
+    for (const Wrench& wrench : {Wrench(Wrench::Zero()), kTipForce, kTipMoment}) {
+      SCOPED_TRACE(::testing::Message() << c.name << ", wrench " << wrench.transpose());
+      const StiffnessModel model(c.scene, accurateTo(1e-13));
+      const Pressures pressures = pressuresFor(c.scene);
+      const StiffnessSolution solution = solveCold(model, pressures, wrench);
+      ASSERT_TRUE(solution.status.ok());
+      const double length = c.scene.length();
+      const auto tip = [&](const Wrench& w) { return solveCold(model, pressures, w).X_BT; };
+      const Matrix6 differences = complianceByDifferences(tip, wrench, solution.compliance, length);
+      const double error = complianceError(solution.compliance, differences, length);
+      EXPECT_LT(error, 1e-6) << solution.compliance << "\ndifferences\n" << differences;
+    }
+}
+
+TEST(TangentCompliance, IsSymmetricWhenNoTipMomentActs) {
+  for (const Case& c : scenes())
+    for (const Wrench& wrench : {Wrench(Wrench::Zero()), kTipForce}) {
+      const StiffnessModel model(c.scene, accurateTo(1e-13));
+      const StiffnessSolution solution = solveCold(model, pressuresFor(c.scene), wrench);
+      ASSERT_TRUE(solution.status.ok()) << c.name;
+      // Dead forces have a potential. What is left is the residual of 1e-12 rad and the truncation asked for.
+      const Matrix6 C = scaledCompliance(solution.compliance, c.scene.length());
+      EXPECT_TRUE(matrixNear(C, C.transpose(), 1e-11 * C.norm())) << c.name;
+    }
+}
+
+TEST(TangentCompliance, IsNotSymmetricWhenADeadTipMomentActs) {
+  for (const Case& c : scenes()) {
+    const StiffnessModel model(c.scene, accurateTo(1e-13));
+    const StiffnessSolution solution = solveCold(model, pressuresFor(c.scene), kTipMoment);
+    ASSERT_TRUE(solution.status.ok()) << c.name;
+    const Matrix6 C = scaledCompliance(solution.compliance, c.scene.length());
+    EXPECT_GT((C - C.transpose()).norm(), 1e-3 * C.norm()) << c.name;
+  }
+}
+
+// Moments about the base of every weight and of the tip wrench, summed by Simpson's rule over 200 sections a segment:
+// it shares only the shape with the solver.
+Vector3 momentOfLoads(const StiffnessModel& model, const StiffnessWorkspace& workspace, const Pose& X_BT,
+                      const Wrench& tip) {
+  const Scene& scene = model.scene();
+  const Vector3 gravity = scene.gravity.value_or(Vector3::Zero());
+  Vector3 moment = angular(tip) + X_BT.p.cross(linear(tip) + scene.tip_mass * gravity);
+  Pose X;
+  walk(
+      scene,
+      [&](int index, const Segment& segment) {
+        constexpr int kPanels = 200;
+        for (int i = 0; i <= kPanels; ++i) {
+          const double weight = (i == 0 || i == kPanels ? 1.0 : i % 2 ? 4.0 : 2.0) / (3.0 * kPanels);
+          const Station station = model.station(workspace, index, static_cast<double>(i) / kPanels);
+          moment += station.X_BS.p.cross(weight * segment.mass() * gravity);
+          X = station.X_BS;
+        }
+      },
+      [&](const Link& link) {
+        moment += (X * Vector3(0.0, 0.0, 0.5 * link.length)).cross(link.mass * gravity);
+        X.p = X * Vector3(0.0, 0.0, link.length);
+      });
+  return moment;
+}
+
+TEST(Statics, MomentsBalanceAtTheBase) {
+  for (const Case& c : scenes())
+    for (const Wrench& wrench : {Wrench(Wrench::Zero()), kTipForce, kTipMoment}) {
+      const StiffnessModel model(c.scene, accurateTo(1e-12));
+      StiffnessWorkspace workspace = model.makeWorkspace();
+      const StiffnessSolution solution = model.solve(pressuresFor(c.scene), wrench, workspace);
+      ASSERT_TRUE(solution.status.ok()) << c.name;
+      const Vector3 expected = momentOfLoads(model, workspace, solution.X_BT, wrench);
+      // Simpson with 200 panels: (1/200)^4 / 180 = 3e-12 of the moment times fourth derivatives of the shape.
+      EXPECT_TRUE(matrixNear(workspace.statics().baseMoment(), expected, 1e-9 * expected.norm())) << c.name;
+    }
+}
+
+TEST(Statics, AgreesWithThePapersEquationsIntegratedLiterally) {
+  Scene scene = paperScene(1);
+  scene.gravity = Vector3(1.0, -2.0, -9.0);
+  RandomSource random(42);
+  for (bool loaded : {false, true})
+    for (Stepping stepping : kSteppings) {
+      SCOPED_TRACE(::testing::Message() << nameOf(stepping) << (loaded ? ", loaded" : ", pressure only"));
+      const Pressures pressures = random.pairs(6, 0.0, stepping == Stepping::kLinear ? 1.5e5 : 1.2e5);
+      DeadLoads loads;
+      if (loaded) loads = {*scene.gravity, kTipForce};
+      Scene set = scene;
+      if (!loaded) set.gravity.reset();
+      ModelOptions options = accurateTo(1e-13);
+      options.stepping = stepping;
+      const StiffnessModel model(set, options);
+      StiffnessWorkspace workspace = model.makeWorkspace();
+      const StiffnessSolution solution = model.solve(pressures, loads.tip, workspace);
+      ASSERT_TRUE(solution.status.ok());
+      const LiteralRod oracle(segmentOf(set, 0), set.tip_mass, loads, pressures, workspace.backbone().rest[0]);
+      // RK4 of 600 steps: (1 rad / 600)^4 = 8e-12. Its shooting stops at 1e-12 of the actuation force, which is up to
+      // 50 times the loads' own: 1e-10 in angle.
+      const double error = poseError(solution.X_BT, oracle.solve(600), scene.length());
+      EXPECT_LT(error, 1e-9);
+      std::cout << nameOf(stepping) << (loaded ? ", loaded" : ", pressure only") << ": " << error << "\n";
+    }
+}
+
+TEST(Statics, WithoutLoadIsTheUnloadedShape) {
+  const Scene scene = paperScene(2);
+  Backbone backbone(scene);
+  const Pressures pressures = pressuresFor(scene);
+  for (int k = 0; k < 2; ++k) {
+    Scene copy = scene;
+    backbone.rest[k] = restState(segmentOf(copy, k).section, pressures.segment(6 * k, 6), Stepping::kFixedStep, 7);
+  }
+  StaticsSolver solver(scene, 1e-12);
+  ASSERT_TRUE(solver.solve(DeadLoads(), backbone).converged);
+  EXPECT_TRUE(matrixNear(solver.baseMoment(), Vector3::Zero(), 0.0));
+}
+
+// Eight segments, 320 mm: hanging, a shot from the base strays by exp(L sqrt(n c_bt)), here 1e5, and needs load
+// continuation; standing, the chain topples over.
+TEST(Statics, EightSegmentsSolveUnderTheirOwnWeight) {
+  Scene paper = paperScene(1);
+  for (double gravity : {9.81, -9.81}) {
+    Scene scene;
+    scene.gravity = Vector3(0.0, 0.0, gravity);
+    for (int k = 0; k < 8; ++k) scene.chain.push_back(segmentOf(paper, 0));
+    scene.tip_mass = 0.005;
+    const StiffnessModel model(scene, accurateTo(1e-9));
+    RandomSource random(43);
+    for (int i = 0; i < 20; ++i) {
+      StiffnessWorkspace workspace = model.makeWorkspace();
+      const StiffnessSolution solution = model.solve(random.pairs(48, 0.0, 0.5e5), Wrench::Zero(), workspace);
+      ASSERT_TRUE(solution.status.ok()) << gravity << ": " << model.describe(solution.status);
+      EXPECT_LT(solution.numerical_error, 1e-8);
+      const Vector3 moment = momentOfLoads(model, workspace, solution.X_BT, Wrench::Zero());
+      EXPECT_TRUE(matrixNear(workspace.statics().baseMoment(), moment, 1e-8));  // N m, of about 0.1
+    }
+  }
+}
+
+// Reissner: a shearable, extensible column buckles at P (1 - P/EA + P/GA) = pi^2 EI / (4 L^2). Only the tangent sees it.
+TEST(TangentCompliance, DivergesAtReissnersBucklingLoad) {
+  Scene scene = weightlessPaperScene(1);
+  scene.tip_mass = 0.0;
+  const StiffnessModel model(scene, accurateTo(1e-12));
+  const Segment& segment = segmentOf(scene, 0);
+  const ComplianceDensity c = SectionMoments(segment.section).complianceDensity(1.0);
+  const double GA = 1.0 / c.shear_elongation(0, 0), EA = 1.0 / c.shear_elongation(2, 2);
+  const double euler = kPi * kPi / (4.0 * c.bending_torsion(0, 0) * segment.length * segment.length);
+  double critical = euler;
+  for (int i = 0; i < 100; ++i) critical = euler / (1.0 - critical / EA + critical / GA);
+  const auto lateral = [&](double P) {
+    return solveCold(model, Pressures::Zero(6), (Wrench() << 0, 0, -P, 0, 0, 0).finished()).compliance(0, 0);
+  };
+  // 1 / C goes through zero at the load: by the secant through two loads below it, extrapolated. Its curvature over
+  // this distance leaves (1e-3)^2.
+  const double a = 1.0 / lateral(0.998 * critical), b = 1.0 / lateral(0.999 * critical);
+  EXPECT_NEAR(0.999 - b * 0.001 / (b - a), 1.0, 3e-6);
+}
+
+}  // namespace
+}  // namespace live_stiffness
