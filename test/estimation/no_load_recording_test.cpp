@@ -78,8 +78,10 @@ TEST(LoadRecording, UnloadedQuasiStaticTipErrorStaysBelowTwoMillimetres) {
   EXPECT_EQ(replayed.failed, 0);
   const RegistrationFit fit = registered(replayed, unloadedQuasiStatic(replayed.recording));
   std::vector<double> all;  // pushes included, of which the pressures know nothing
-  for (size_t i = 0; i < replayed.X_BT.size(); ++i)
-    all.push_back((fit.registration.sensorPose(replayed.X_BT[i]).p - replayed.recording.samples[i].tip_position).norm());
+  for (size_t i = 0; i < replayed.X_BT.size(); ++i) {
+    const Pose X_AS = fit.registration.sensorPose(replayed.X_BT[i]);
+    all.push_back((X_AS.p - replayed.recording.samples[i].tip_position).norm());
+  }
   std::printf("load_1, quasi-static unloaded: %s\n", millimetreText(fit.position).c_str());
   std::printf("load_1, all, pushes included:  %s\n", millimetreText(summarizeErrors(all)).c_str());
   EXPECT_GT(fit.position.count, 300);  // of 1109: otherwise the selection is broken
