@@ -4,13 +4,13 @@
 // Shares only the scene, the section's moments and the Lie group with the product. The load path is the limit of
 // infinitely many steps, by Runge-Kutta over the load; the rod is integrated by classical Runge-Kutta on quaternion,
 // position and moment with kRodSteps steps a segment; the base moment is found by Newton with finite differences.
-// Slow (some 0.1 ms a solve) and simple, so that an error would have to be made twice to go unseen.
+// Slow (about a millisecond a solve) and simple, so that an error would have to be made twice to go unseen.
 
 #include <optional>
 #include <vector>
 
-#include "live_stiffness/rod/scene.h"
 #include "live_stiffness/lie/se3.h"
+#include "live_stiffness/rod/scene.h"
 
 namespace live_stiffness {
 

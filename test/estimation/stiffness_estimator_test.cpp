@@ -1,0 +1,90 @@
+#include "live_stiffness/estimation/stiffness_estimator.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "live_stiffness/rod/scene_file.h"
+
+namespace live_stiffness {
+namespace {
+
+using Outcome = StiffnessEstimator::Outcome;
+
+class StiffnessEstimatorTest : public ::testing::Test {
+ protected:
+  StiffnessEstimator estimator_{loadSceneFile(std::string(SOURCE_DIR) + "/config/scenes/paper_one_segment.yaml"),
+                                ModelOptions(), EstimatorOptions()};
+  Pressures pressures_ = Pressures::Constant(6, 20e3);
+};
+
+TEST_F(StiffnessEstimatorTest, SolvesOnlyWhenPressuresMoveByMoreThanTheThreshold) {
+  EXPECT_EQ(estimator_.setPressures(pressures_), Outcome::kSolved);
+  EXPECT_EQ(estimator_.setPressures(pressures_), Outcome::kUnchanged);
+  Pressures near = pressures_;
+  near[0] += 999.0;
+  EXPECT_EQ(estimator_.setPressures(near), Outcome::kUnchanged);
+  EXPECT_EQ(estimator_.estimate()->pressures, pressures_);
+  // Small changes add up: the threshold counts from the last solve, not from the last message.
+  near[1] += 999.0;
+  EXPECT_EQ(estimator_.setPressures(near), Outcome::kSolved);
+  EXPECT_EQ(estimator_.estimate()->pressures, near);
+}
+
+TEST_F(StiffnessEstimatorTest, SolvesOnAChangedTipWrench) {
+  EXPECT_EQ(estimator_.setTipWrench(Wrench::Zero()), Outcome::kUnchanged) << "no pressures yet";
+  estimator_.setPressures(pressures_);
+  const double z = estimator_.estimate()->solution.X_BT.p.z();
+  Wrench pull = Wrench::Zero();
+  pull[2] = 0.1;
+  EXPECT_EQ(estimator_.setTipWrench(pull), Outcome::kSolved);
+  EXPECT_GT(estimator_.estimate()->solution.X_BT.p.z(), z);
+  EXPECT_EQ(estimator_.setTipWrench(pull), Outcome::kUnchanged);
+}
+
+TEST_F(StiffnessEstimatorTest, KeepsTheLastGoodEstimateWhenASolveFails) {
+  EXPECT_EQ(estimator_.estimate(), nullptr);
+  estimator_.setPressures(pressures_);
+  for (const Pressures& bad : {Pressures(Pressures::Constant(6, 5e5)), Pressures(Pressures::Constant(3, 1e3)),
+                               Pressures(Pressures::Constant(6, std::numeric_limits<double>::quiet_NaN()))}) {
+    EXPECT_EQ(estimator_.setPressures(bad), Outcome::kFailed);
+    EXPECT_FALSE(estimator_.status().ok());
+    EXPECT_FALSE(estimator_.statusText().empty());
+    ASSERT_NE(estimator_.estimate(), nullptr);
+    EXPECT_EQ(estimator_.estimate()->pressures, pressures_);
+    EXPECT_TRUE(estimator_.sampleBackbone(4).empty()) << "the failed shape must not be shown";
+  }
+  EXPECT_EQ(estimator_.setPressures(pressures_), Outcome::kSolved);
+  EXPECT_TRUE(estimator_.statusText().empty());
+}
+
+TEST_F(StiffnessEstimatorTest, StiffnessIsTheInverseAndStationsAreWhereTheyWereAsked) {
+  estimator_.setPressures(pressures_);
+  const Estimate& estimate = *estimator_.estimate();
+  // Conditioning of the compliance in SI units is about 1e4.
+  EXPECT_LT((estimate.stiffness * estimate.solution.compliance - Matrix6::Identity()).norm(), 1e-11);
+  ASSERT_EQ(estimate.stations.size(), 5u);
+  const Station& last = estimate.stations.back();  // fraction 1; the tip point has no offset in this scene
+  EXPECT_LT((last.X_BS.p - estimate.solution.X_BT.p).norm(), 1e-15);
+  EXPECT_LT((last.compliance - estimate.solution.material_compliance).norm(), 1e-12 * last.compliance.norm());
+  const std::vector<Station> samples = estimator_.sampleBackbone(10);
+  ASSERT_EQ(samples.size(), 11u);
+  EXPECT_LT((samples[5].X_BS.p - estimate.stations[0].X_BS.p).norm(), 1e-15) << "the middle";
+  EXPECT_EQ(samples.front().X_BS.p.norm(), 0.0);
+}
+
+TEST(StiffnessEstimatorOptions, AllFaultsAreReported) {
+  EstimatorOptions options;
+  options.update_threshold = -1.0;
+  options.fractions = {0.5, 1.5, std::numeric_limits<double>::quiet_NaN()};
+  try {
+    StiffnessEstimator estimator(loadSceneFile(std::string(SOURCE_DIR) + "/config/scenes/paper_one_segment.yaml"),
+                                 ModelOptions(), options);
+    FAIL() << "must throw";
+  } catch (const ConfigurationError& error) {
+    EXPECT_EQ(error.faults().size(), 3u) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace live_stiffness

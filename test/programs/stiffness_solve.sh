@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# stiffness_solve as a user runs it: columns, statuses, messages, exit status. PROGRAM SOURCE_DIR
+set -euo pipefail
+program=$1 scene=$2/config/scenes/paper_one_segment.yaml
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+fail() { echo "FAILED: $1"; cat "$work"/*; exit 1; }
+solve() { status=0; "$program" "$scene" "$@" >"$work/out" 2>"$work/err" || status=$?; }
+
+# Good rows, with a wrench: exit 0, the columns promised, 17 digits, and the push shows.
+printf 'p_1_pa,p_2_pa,p_3_pa,p_4_pa,p_5_pa,p_6_pa,fx_n,fy_n,fz_n,mx_nm,my_nm,mz_nm\n6e4,6e4,0,0,0,0,0,0,0,0,0,0\n6e4,6e4,0,0,0,0,0.1,0,0,0,0,0\n' | solve
+[ $status = 0 ] || fail "exit status $status of a good table"
+[ "$(head -1 "$work/out" | cut -d, -f1-12)" = status,iterations,solve_us,x_m,y_m,z_m,qw,qx,qy,qz,c_11,c_12 ] || fail header
+[ "$(head -1 "$work/out" | cut -d, -f46-47,82)" = c_66,material_11,material_66 ] || fail "last columns"
+awk -F, 'NF != 82 {exit 1}' "$work/out" || fail "not 82 columns"
+awk -F, 'NR == 2 {free = $4} NR == 3 {exit !($4 - free > 0.001)}' "$work/out" || fail "0.1 N along x moves the tip by more than 1 mm"
+sed -n 2p "$work/out" | cut -d, -f4 | grep -qE '^-0\.0[0-9]{16,18}$' || fail "17 significant digits"
+
+# Bad rows keep their place, the others are solved, messages name the line: exit 1.
+printf 'p_1_pa,p_2_pa,p_3_pa,p_4_pa,p_5_pa,p_6_pa\n6e4,6e4,0,0,0,0\n1,2\n\nnan,0,0,0,0,0\n9e5,9e5,9e5,9e5,9e5,9e5\nx,0,0,0,0,0\n0,0,0,0,0,0\n' | solve
+[ $status = 1 ] || fail "exit status $status of a table with bad rows"
+[ "$(tail -n +2 "$work/out" | cut -d, -f1 | tr '\n' ' ')" = "ok invalid_input invalid_input out_of_range invalid_input ok " ] || fail statuses
+for line in 3 5 6 7; do grep -q "^line $line: " "$work/err" || fail "no message for line $line"; done
+grep -qi nan "$work/out" && fail "NaN in the output"
+
+# The four models and their contradictions; PCC ignores the weight, so its compliance is that of the closed form.
+for model in lpcc npcc lcm ncm; do
+  printf 'p_1_pa,p_2_pa,p_3_pa,p_4_pa,p_5_pa,p_6_pa\n9e4,9e4,0,0,0,0\n' | solve --model $model
+  [ $status = 0 ] || fail "model $model"
+  sed -n 2p "$work/out" | cut -d, -f2,4 >"$work/$model"
+done
+[ "$(cut -d, -f1 "$work/lpcc" "$work/npcc" | sort -u)" = 0 ] || fail "PCC must take the closed form"
+[ "$(cat "$work"/{lpcc,npcc,lcm,ncm} | sort -u | wc -l)" = 4 ] || fail "four models must give four answers"
+echo | solve --model lcm --stepping continuous
+[ $status = 2 ] && grep -q contradicts "$work/err" || fail "contradiction"
+echo p_1_pa | solve
+[ $status = 2 ] && grep -q "p_6_pa is missing" "$work/err" || fail "missing columns"
+scene=/nonexistent.yaml
+echo | solve
+[ $status = 2 ] && grep -q "cannot be read" "$work/err" || fail "missing scene"
+echo ok

@@ -1,0 +1,140 @@
+#include "live_stiffness/ros/conversions.h"
+
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <gtest/gtest.h>
+#include <std_msgs/Float32MultiArray.h>
+#include <std_msgs/Float64MultiArray.h>
+#include <std_msgs/String.h>
+
+#include <limits>
+#include <vector>
+
+namespace live_stiffness {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// A message as it arrives from the network.
+template <class Message>
+topic_tools::ShapeShifter onTheWire(const Message& message) {
+  std::vector<uint8_t> buffer(ros::serialization::serializationLength(message));
+  ros::serialization::OStream out(buffer.data(), buffer.size());
+  ros::serialization::serialize(out, message);
+  topic_tools::ShapeShifter shape;
+  shape.morph(ros::message_traits::MD5Sum<Message>::value(), ros::message_traits::DataType<Message>::value(),
+              ros::message_traits::Definition<Message>::value(), "");
+  ros::serialization::IStream in(buffer.data(), buffer.size());
+  shape.read(in);
+  return shape;
+}
+
+Pose somePose() { return {expSo3(Vector3(0.4, -1.1, 0.7)), Vector3(0.01, -0.02, 0.05)}; }
+
+TEST(Conversions, PressuresGoThereAndBack) {
+  Pressures pressures(3);
+  pressures << 1.5e5, -2e4, 0.125;
+  const auto reading = readPressures(onTheWire(toPressures(pressures, ros::Time(12.5))), PressureFormat());
+  ASSERT_TRUE(reading.ok()) << reading.fault;
+  EXPECT_EQ(reading.value, pressures);
+  EXPECT_EQ(reading.stamp, ros::Time(12.5));
+}
+
+TEST(Conversions, ArraysAreReadInTheirUnitAndReference) {
+  std_msgs::Float64MultiArray doubles;
+  doubles.data = {101.325, 151.325};
+  PressureFormat absolute_kpa;
+  absolute_kpa.unit = pascalsPerUnit("kPa");
+  absolute_kpa.absolute = true;
+  auto reading = readPressures(onTheWire(doubles), absolute_kpa);
+  ASSERT_TRUE(reading.ok());
+  EXPECT_NEAR(reading.value[0], 0.0, 1e-9);
+  EXPECT_NEAR(reading.value[1], 50e3, 1e-9);
+  EXPECT_TRUE(reading.stamp.isZero());
+  std_msgs::Float32MultiArray floats;
+  floats.data = {1.0f, 0.5f};
+  PressureFormat bar;
+  bar.unit = pascalsPerUnit("bar");
+  reading = readPressures(onTheWire(floats), bar);
+  ASSERT_TRUE(reading.ok());
+  EXPECT_EQ(reading.value[1], 0.5e5);
+}
+
+TEST(Conversions, UnitsOfPressure) {
+  EXPECT_EQ(pascalsPerUnit("Pa"), 1.0);
+  EXPECT_EQ(pascalsPerUnit("kPa"), 1e3);
+  EXPECT_EQ(pascalsPerUnit("bar"), 1e5);
+  EXPECT_EQ(pascalsPerUnit("mbar"), 1e2);
+  EXPECT_NEAR(pascalsPerUnit("psi"), 4.4482216152605 / (0.0254 * 0.0254), 1e-6);  // lbf / in^2
+  EXPECT_EQ(pascalsPerUnit("atm"), 0.0);
+}
+
+TEST(Conversions, BadPressuresAreFaultsThatNameTheChannel) {
+  std_msgs::Float64MultiArray message;
+  message.data = {0.0, kNaN};
+  EXPECT_NE(readPressures(onTheWire(message), PressureFormat()).fault.find("channel 2"), std::string::npos);
+  message.data = {-5.0, 1.0};
+  PressureFormat absolute;
+  absolute.absolute = true;
+  EXPECT_NE(readPressures(onTheWire(message), absolute).fault.find("negative"), std::string::npos);
+  EXPECT_TRUE(readPressures(onTheWire(message), PressureFormat()).ok()) << "a gauge pressure may be negative";
+  EXPECT_NE(readPressures(onTheWire(std_msgs::String()), PressureFormat()).fault.find("std_msgs/String"),
+            std::string::npos);
+}
+
+TEST(Conversions, PoseGoesThereAndBackThroughAllThreeTypes) {
+  const Pose X = somePose();
+  const auto stamped = toPoseStamped(X, ros::Time(3.0), "/aurora");
+  geometry_msgs::PoseWithCovarianceStamped covariance;
+  covariance.header = stamped.header;
+  covariance.pose.pose = stamped.pose;
+  const auto transform = toTransform(X, ros::Time(3.0), "/aurora", "tip");
+  for (const auto& reading : {readPose(onTheWire(stamped), 1.0), readPose(onTheWire(covariance), 1.0),
+                              readPose(onTheWire(transform), 1.0)}) {
+    ASSERT_TRUE(reading.ok()) << reading.fault;
+    EXPECT_LT((reading.value.pose.R - X.R).norm(), 1e-15);
+    EXPECT_EQ(reading.value.pose.p, X.p);
+    EXPECT_EQ(reading.value.frame, "aurora");
+    EXPECT_EQ(reading.stamp, ros::Time(3.0));
+  }
+  EXPECT_NEAR(readPose(onTheWire(stamped), 1e-3).value.pose.p.z(), 50e-6, 1e-18) << "millimetres";
+}
+
+TEST(Conversions, UnusablePosesAreFaults) {
+  auto zero = toPoseStamped(somePose(), ros::Time(1.0), "aurora"), far = zero, not_finite = zero;
+  zero.pose.orientation.w = zero.pose.orientation.x = zero.pose.orientation.y = zero.pose.orientation.z = 0.0;
+  far.pose.orientation.w += 1.0;
+  not_finite.pose.position.y = kNaN;
+  for (const auto& pose : {zero, far, not_finite}) EXPECT_FALSE(readPose(onTheWire(pose), 1.0).ok());
+  EXPECT_FALSE(readPose(onTheWire(std_msgs::String()), 1.0).ok());
+  auto flipped = toPoseStamped(somePose(), ros::Time(1.0), "aurora");
+  auto& q = flipped.pose.orientation;
+  q.w = -q.w, q.x = -q.x, q.y = -q.y, q.z = -q.z;
+  EXPECT_LT((readPose(onTheWire(flipped), 1.0).value.pose.R - somePose().R).norm(), 1e-15) << "sign has no meaning";
+}
+
+TEST(Conversions, MatricesAreRowByRowLinearFirst) {
+  Estimate estimate;
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j) estimate.solution.compliance(i, j) = 10 * i + j;
+  estimate.pressures = Pressures::Constant(2, 5.0);
+  const StiffnessEstimate message = toEstimate(estimate, ros::Time(1.0), "base");
+  EXPECT_EQ(message.compliance[1], 1.0);
+  EXPECT_EQ(message.compliance[6], 10.0);
+  EXPECT_EQ(message.compliance[35], 55.0);
+  EXPECT_EQ(message.pressure.size(), 2u);
+}
+
+TEST(Conversions, TrackingErrorIsMeasuredMinusPredicted) {
+  const Pose predicted = somePose();
+  Pose measured = predicted;
+  measured.p += Vector3(0.003, 0.0, -0.004);
+  measured.R = expSo3(Vector3(0.0, 0.02, 0.0)) * predicted.R;
+  const TrackingError error = toTrackingError(measured, predicted, ros::Time(1.0), "base");
+  EXPECT_NEAR(error.distance, 0.005, 1e-15);
+  EXPECT_NEAR(error.angle, 0.02, 1e-14);
+  EXPECT_NEAR(error.rotation.y, 0.02, 1e-14);
+  EXPECT_NEAR(error.translation.z, -0.004, 1e-15);
+}
+
+}  // namespace
+}  // namespace live_stiffness
