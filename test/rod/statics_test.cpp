@@ -173,7 +173,8 @@ TEST(Statics, EightSegmentsSolveUnderTheirOwnWeight) {
   }
 }
 
-// Reissner: a shearable, extensible column buckles at P (1 - P/EA + P/GA) = pi^2 EI / (4 L^2). Only the tangent sees it.
+// Reissner: a shearable, extensible column buckles at P (1 - P/EA + P/GA) = pi^2 EI / (4 L^2). Only the tangent sees
+// it.
 TEST(TangentCompliance, DivergesAtReissnersBucklingLoad) {
   Scene scene = weightlessPaperScene(1);
   scene.tip_mass = 0.0;
