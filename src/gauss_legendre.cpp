@@ -42,6 +42,8 @@ GaussLegendre makeTable() {
     Real value, derivative;
     legendre(n - 1, 2 * node[i] - 1, value, derivative);
     table.top[i] = (2 * n - 1) * weight[i] * value;
+    legendre(n - 2, 2 * node[i] - 1, value, derivative);
+    table.below_top[i] = (2 * n - 3) * weight[i] * value;
     // a_ij: the Lagrange polynomial of node j has degree n - 1, so the rule itself integrates it exactly.
     for (int j = 0; j < n; ++j) {
       Real integral = 0;

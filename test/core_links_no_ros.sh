@@ -10,7 +10,8 @@ if ! echo "$symbols" | grep -q 'live_stiffness::'; then
   echo "FAILED: $library defines nothing of live_stiffness; is it the core library?"
   exit 1
 fi
-needed=$(readelf -d "$library" 2>/dev/null | grep NEEDED | grep -E 'libros|libtf2|libxmlrpcpp|libtopic_tools|libcpp_common')
+ros_libraries='libros|libtf2|libxmlrpcpp|libtopic_tools|libcpp_common'
+needed=$(readelf -d "$library" 2>/dev/null | grep NEEDED | grep -E "$ros_libraries")
 used=$(echo "$symbols" | grep -E '^ *U (ros|tf2|rosbag|topic_tools)[a-z0-9_]*::')
 if [ -n "$needed$used" ]; then
   echo "FAILED: the core library $library must build without ROS, but it needs"

@@ -14,7 +14,8 @@ namespace fs = std::filesystem;
 // Headers of ROS packages, and the package's own generated messages (UpperCamel).
 bool isRosInclude(const std::string& line) {
   static const std::regex pattern(
-      R"(^\s*#\s*include\s*["<](ros/|rosbag/|tf/|tf2|topic_tools/|diagnostic_updater/|[a-z0-9_]+_msgs/|live_stiffness/[A-Z]).*)");
+      R"(^\s*#\s*include\s*["<])"
+      R"((ros/|rosbag/|tf/|tf2|topic_tools/|diagnostic_updater/|[a-z0-9_]+_msgs/|live_stiffness/[A-Z]).*)");
   return std::regex_match(line, pattern);
 }
 
@@ -25,8 +26,9 @@ bool mayUseRos(const fs::path& path) {
 }
 
 TEST(CoreWithoutRos, RecognisesRosIncludes) {
-  for (const char* line : {"#include <ros/ros.h>", "#include \"geometry_msgs/PoseStamped.h\"", "# include <tf2/utils.h>",
-                           "#include <tf2_ros/buffer.h>", "#include <live_stiffness/StiffnessEstimate.h>"})
+  for (const char* line : {"#include <ros/ros.h>", "#include \"geometry_msgs/PoseStamped.h\"",
+                           "# include <tf2/utils.h>", "#include <tf2_ros/buffer.h>",
+                           "#include <live_stiffness/StiffnessEstimate.h>"})
     EXPECT_TRUE(isRosInclude(line)) << line;
   for (const char* line : {"#include <vector>", "#include \"live_stiffness/rod/scene.h\"", "// see ros/ and tf2"})
     EXPECT_FALSE(isRosInclude(line)) << line;

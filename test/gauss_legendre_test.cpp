@@ -30,16 +30,22 @@ TEST(GaussLegendre, RungeKuttaMatrixIntegratesUpToEachNode) {
     }
 }
 
-TEST(GaussLegendre, TopIsTheHighestLegendreCoefficient) {
+TEST(GaussLegendre, TopAndBelowTopAreTheHighestLegendreCoefficients) {
   const GaussLegendre& table = gaussLegendre();
-  const auto top = [&](auto f) {
+  const auto coefficient = [&](const std::array<double, kStages>& row, auto f) {
     double sum = 0.0;
-    for (int i = 0; i < kStages; ++i) sum += table.top[i] * f(2.0 * table.c[i] - 1.0);
+    for (int i = 0; i < kStages; ++i) sum += row[i] * f(2.0 * table.c[i] - 1.0);
     return sum;
   };
   static_assert(kStages == 6, "the polynomials below are of degree kStages - 1 and one less");
-  EXPECT_NEAR(top([](double x) { return (63 * std::pow(x, 5) - 70 * x * x * x + 15 * x) / 8; }), 1.0, 1e-14);
-  EXPECT_NEAR(top([](double x) { return (35 * std::pow(x, 4) - 30 * x * x + 3) / 8; }), 0.0, 1e-14);
+  const auto P5 = [](double x) { return (63 * std::pow(x, 5) - 70 * x * x * x + 15 * x) / 8; };
+  const auto P4 = [](double x) { return (35 * std::pow(x, 4) - 30 * x * x + 3) / 8; };
+  const auto P3 = [](double x) { return (5 * x * x * x - 3 * x) / 2; };
+  EXPECT_NEAR(coefficient(table.top, P5), 1.0, 1e-14);
+  EXPECT_NEAR(coefficient(table.top, P4), 0.0, 1e-14);
+  EXPECT_NEAR(coefficient(table.below_top, P5), 0.0, 1e-14);
+  EXPECT_NEAR(coefficient(table.below_top, P4), 1.0, 1e-14);
+  EXPECT_NEAR(coefficient(table.below_top, P3), 0.0, 1e-14);
 }
 
 }  // namespace

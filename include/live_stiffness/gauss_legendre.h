@@ -8,9 +8,10 @@ namespace live_stiffness {
 constexpr int kStages = 6;  // quadrature exact to degree 11, collocation of order 12
 
 // c: nodes; b: weights, sum 1; a: a[i][j] integrates over [0, c_i] (the Runge-Kutta matrix of the Gauss method);
-// top: sum_i top[i] f(c_i) is the Legendre coefficient of f of the highest degree that kStages nodes can see.
+// top: sum_i top[i] f(c_i) is the Legendre coefficient of f of the highest degree that kStages nodes can see;
+// below_top: that of one degree less.
 struct GaussLegendre {
-  std::array<double, kStages> c, b, top;
+  std::array<double, kStages> c, b, top, below_top;
   std::array<std::array<double, kStages>, kStages> a;
 };
 

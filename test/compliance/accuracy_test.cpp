@@ -16,28 +16,32 @@ double errorOf(const StiffnessSolution& solution, const StiffnessSolution& exact
                    complianceError(solution.material_compliance, exact.material_compliance, length)});
 }
 
+// Seed 10 holds, for one segment, an element whose highest Legendre coefficient passes through zero: an estimate from
+// that coefficient alone is 40 times too small there.
 TEST(NumericalError, BoundsTheTrueErrorWithinAFactorOfTen) {
-  for (int segments : {1, 2}) {
-    const Scene scene = paperScene(segments);
-    const StiffnessModel exact(scene, accurateTo(1e-13));
-    RandomSource random(61);
-    double worst_ratio = 0.0, worst_error = 0.0;
-    for (int i = 0; i < 300; ++i) {
-      const StiffnessModel model(scene, accurateTo(std::pow(10.0, random.uniform(-6.0, -4.0))));
-      const Pressures pressures = random.pairs(6 * segments, -0.3e5, 1.2e5);
-      const Wrench wrench = random.wrench(0.1 / segments, 2e-3 / segments);
-      const StiffnessSolution a = solveCold(model, pressures, wrench), b = solveCold(exact, pressures, wrench);
-      ASSERT_TRUE(a.status.ok() && b.status.ok()) << i;
-      const double error = errorOf(a, b, scene.length());
-      // The reference itself is no better than its residual of 1e-12 rad.
-      EXPECT_LE(error, 10.0 * a.numerical_error + 1e-11) << i << ", pressures " << pressures.transpose() << ", wrench "
-                                                         << wrench.transpose();
-      if (error > 1e-11) worst_ratio = std::max(worst_ratio, error / a.numerical_error);
-      worst_error = std::max(worst_error, error);
+  for (int segments : {1, 2})
+    for (unsigned seed : {7, 10}) {
+      const Scene scene = paperScene(segments);
+      const StiffnessModel exact(scene, accurateTo(1e-13));
+      const StiffnessModel models[] = {{scene, accurateTo(1e-4)}, {scene, accurateTo(1e-5)}, {scene, accurateTo(1e-6)}};
+      RandomSource random(seed);
+      double worst_ratio = 0.0, worst_error = 0.0;
+      for (int i = 0; i < 300; ++i) {
+        const Pressures pressures = random.pairs(6 * segments, -0.3e5, 1.2e5);
+        const Wrench wrench = random.wrench(0.1, 2e-3);
+        const StiffnessSolution a = solveCold(models[i % 3], pressures, wrench);
+        const StiffnessSolution b = solveCold(exact, pressures, wrench);
+        ASSERT_TRUE(a.status.ok() && b.status.ok()) << i;
+        const double error = errorOf(a, b, scene.length());
+        // The reference itself is no better than its residual of 1e-12 rad.
+        EXPECT_LE(error, 10.0 * a.numerical_error + 1e-11) << i << ", pressures " << pressures.transpose()
+                                                           << ", wrench " << wrench.transpose();
+        worst_ratio = std::max(worst_ratio, (error - 1e-11) / a.numerical_error);
+        worst_error = std::max(worst_error, error);
+      }
+      std::cout << segments << " segments: error at most " << worst_error << ", " << worst_ratio
+                << " times numerical_error\n";
     }
-    std::cout << segments << " segments: error at most " << worst_error << ", " << worst_ratio
-              << " times numerical_error\n";
-  }
 }
 
 TEST(Accuracy, IsMetOrReportedAsMissed) {

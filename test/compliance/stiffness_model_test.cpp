@@ -84,7 +84,8 @@ TEST(StiffnessModel, WithAVanishingWrenchIsTheClosedForm) {
 
 TEST(StiffnessModel, RefusesBadPressuresWithTheValueAndTheLegalRange) {
   const StiffnessModel model(paperScene(1), {});
-  for (double bad : {-2e5, std::nan(""), std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (double bad : {-2e5, std::nan(""), kInfinity, -kInfinity}) {
     Pressures pressures = kPressures;
     pressures[3] = bad;
     const SolveStatus status = solveCold(model, pressures).status;

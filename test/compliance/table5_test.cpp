@@ -74,8 +74,8 @@ TEST(Table5, NpccRows) {
 }
 
 // The printed row 0.9 [1 1 1 1 0 0] is left out: by symmetry it must mirror 0.9 [1 1 0 0 1 1] (the signs of c12, c21,
-// c23, c32 change), but it does not (c11 2.60 against 2.83, c33 0.70 against 0.82), so one of the two is a misprint, and
-// only the latter fits the other rows.
+// c23, c32 change), but it does not (c11 2.60 against 2.83, c33 0.70 against 0.82), so one of the two is a misprint,
+// and only the latter fits the other rows.
 TEST(Table5, LpccRows) {
   ModelOptions options;
   options.external_loads = false;

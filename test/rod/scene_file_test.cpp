@@ -161,7 +161,7 @@ TEST(SceneFile, RefusesGeometryThatDoesNotFit) {
     text.replace(at, text.find_first_of(",}", at) - at, value);
     return faultsOf(chainOf("  - segment: " + text));
   };
-  EXPECT_TRUE(holds(faults("lumen_radius_m", "0.02"), {"lumen_radius_m", "0.02 m must be below outer_radius_m, 0.0125"}));
+  EXPECT_TRUE(holds(faults("lumen_radius_m", "0.02"), {"lumen_radius_m: 0.02 m must be below outer_radius_m, 0.0125"}));
   EXPECT_TRUE(holds(faults("chamber_pitch_radius_m", "0.0115"), {"through the outer wall", "0.0115"}));
   EXPECT_TRUE(holds(faults("chamber_pitch_radius_m", "0.005"), {"into the lumen", "0.005"}));
 }

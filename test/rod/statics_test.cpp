@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "live_stiffness/rod/kinematics.h"
 #include "support/differences.h"
 #include "support/errors.h"
 #include "support/literal_rod.h"
@@ -149,6 +150,11 @@ TEST(Statics, WithoutLoadIsTheUnloadedShape) {
   StaticsSolver solver(scene, 1e-12);
   ASSERT_TRUE(solver.solve(DeadLoads(), backbone).converged);
   EXPECT_TRUE(matrixNear(solver.baseMoment(), Vector3::Zero(), 0.0));
+  Backbone closed(scene);
+  closed.rest = backbone.rest;
+  chooseUnloadedElements(scene, closed);
+  placeUnloaded(scene, closed);
+  EXPECT_LT(poseError(backbone.X_BT, closed.X_BT, scene.length()), 1e-12);  // the accuracy asked for
 }
 
 // Eight segments, 320 mm: hanging, a shot from the base strays by exp(L sqrt(n c_bt)), here 1e5, and needs load
@@ -173,7 +179,8 @@ TEST(Statics, EightSegmentsSolveUnderTheirOwnWeight) {
   }
 }
 
-// Reissner: a shearable, extensible column buckles at P (1 - P/EA + P/GA) = pi^2 EI / (4 L^2). Only the tangent sees it.
+// Reissner: a shearable, extensible column buckles at P (1 - P/EA + P/GA) = pi^2 EI / (4 L^2). Only the tangent sees
+// it.
 TEST(TangentCompliance, DivergesAtReissnersBucklingLoad) {
   Scene scene = weightlessPaperScene(1);
   scene.tip_mass = 0.0;

@@ -48,9 +48,11 @@ TEST(SectionMoments, OfALopsidedLayoutAreTheIntegralOverTheSolidArea) {
   for (int i = 0; i < kCells; ++i)
     for (int j = 0; j < kCells; ++j) {
       const Vector3 r((i + 0.5) * cell - section.outer_radius, (j + 0.5) * cell - section.outer_radius, 0.0);
+      const Eigen::Vector2d xy = r.head<2>();
       bool solid = r.norm() < section.outer_radius && r.norm() > section.lumen_radius;
-      for (int k = 0; k < 3; ++k) solid = solid && (r - section.chambers.centre(k, 1.0)).norm() > section.chambers.radius;
-      if (solid) sum += cell * cell * (r.squaredNorm() * Eigen::Matrix2d::Identity() - r.head<2>() * r.head<2>().transpose());
+      for (int k = 0; k < 3; ++k)
+        solid = solid && (r - section.chambers.centre(k, 1.0)).norm() > section.chambers.radius;
+      if (solid) sum += cell * cell * (xy.squaredNorm() * Eigen::Matrix2d::Identity() - xy * xy.transpose());
     }
   const Eigen::Matrix2d moments = SectionMoments(section).secondMoments(1.0);
   EXPECT_GT(std::abs(moments(0, 1)), 0.01 * moments.norm());  // else this proves nothing about the off-diagonal

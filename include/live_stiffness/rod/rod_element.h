@@ -36,7 +36,8 @@ struct RodElement {
   StageVectors m = StageVectors::Zero();
   StageVectors rotation = StageVectors::Zero();  // rotation vectors from X_start, rad; also the next solve's guess
   StageVectors tangent = StageVectors::Zero();   // p', -
-  double truncation = 0.0;  // size of the highest Legendre coefficient of the curvature times length, rad
+  double truncation = 0.0;  // size of the highest Legendre coefficient of the curvature, or what the one below it lets
+                            // expect if larger, times length, rad
 
   double weight(int i) const { return length * gaussLegendre().b[i]; }  // quadrature weight of node i, m
 };
