@@ -17,94 +17,13 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kResidualGoal = 1e-12;     // rad, see StaticsReport::residual
 constexpr double kResidualAccepted = 1e-9;  // rad, when rounding stops it short of the goal
 
-// Force at the base of the chain: everything beyond it.
-Vector3 baseForce(const Scene& scene, const DeadLoads& loads) {
-  double mass = scene.tip_mass;
-  walk(
-      scene, [&](int, const Segment& segment) { mass += segment.mass(); },
-      [&](const Link& link) { mass += link.mass; });
-  return linear(loads.tip) + mass * loads.gravity;
-}
-
-Vector3 lineLoad(const Segment& segment, const RestState& rest, const DeadLoads& loads) {
-  return segment.section.linearDensity() / rest.stretch * loads.gravity;
-}
-
 }  // namespace
 
 StaticsSolver::StaticsSolver(const Scene& scene, double accuracy) : scene_(scene), accuracy_(accuracy) {}
 
-// Shoots from the base to T. residual: moment at T that nothing balances, N m.
 bool StaticsSolver::march(const DeadLoads& loads, const Vector3& base_moment, Backbone& backbone, Vector3& residual) {
-  Pose X;
-  Vector3 n = baseForce(scene_, loads);
-  Vector3 m = base_moment;
-  auto element = backbone.elements.begin();
-  bool converged = true;
-  walk(
-      scene_,
-      [&](int index, const Segment& segment) {
-        const RestState& rest = backbone.rest[index];
-        const Vector3 line_load = lineLoad(segment, rest, loads);
-        const int count = backbone.element_count[index];
-        for (int k = 0; k < count && converged; ++k, ++element) {
-          element->segment = index;
-          element->length = rest.stretch * segment.length / count;
-          element->start = k * element->length;
-          element->X_start = X;
-          element->n_start = n;
-          element->m_start = m;
-          element->line_load = line_load;
-          if (!nodes_hold_guess_) resetGuess(rest, *element);
-          converged = integrate(rest, *element);
-          X = element->X_end;
-          n = element->n_end;
-          m = element->m_end;
-        }
-      },
-      [&](const Link& link) {
-        const Vector3 along = link.length * X.R.col(2);
-        const Vector3 weight = link.mass * loads.gravity;
-        n -= weight;
-        m -= along.cross(n) + 0.5 * along.cross(weight);
-        X.p += along;
-      });
-  nodes_hold_guess_ = converged;
-  if (!converged) return false;
-  const Vector3 offset = X.R * scene_.tip_offset;
-  backbone.X_BT = {X.R, X.p + offset};
-  residual = m - offset.cross(n) - angular(loads.tip);
-  return residual.allFinite();
-}
-
-// Columns [base moment, tip force] of the state at T; .m holds those of the residual.
-StateColumns StaticsSolver::tipColumns(const DeadLoads& loads, const Backbone& backbone) const {
-  StateColumns columns;
-  columns.m.leftCols<3>().setIdentity();
-  columns.n.rightCols<3>().setIdentity();
-  auto element = backbone.elements.begin();
-  const auto along_rigid = [&](const Vector3& along, const Vector3& n) {
-    const Matrix3X6 moved = -hat(along) * columns.phi;  // phi x along
-    columns.p += moved;
-    columns.m += hat(n) * moved - hat(along) * columns.n;
-  };
-  Matrix3 R = Matrix3::Identity();
-  Vector3 n = baseForce(scene_, loads);
-  walk(
-      scene_,
-      [&](int index, const Segment&) {
-        for (int k = 0; k < backbone.element_count[index]; ++k, ++element)
-          propagate(backbone.rest[index], *element, columns);
-        R = std::prev(element)->X_end.R;
-        n = std::prev(element)->n_end;
-      },
-      [&](const Link& link) {
-        const Vector3 weight = link.mass * loads.gravity;
-        n -= weight;
-        along_rigid(link.length * R.col(2), n + 0.5 * weight);  // the weight has half the lever
-      });
-  along_rigid(R * scene_.tip_offset, n);
-  return columns;
+  nodes_hold_guess_ = shoot(scene_, loads, base_moment, nodes_hold_guess_, backbone, residual);
+  return nodes_hold_guess_;
 }
 
 double StaticsSolver::bendingOf(const Vector3& moment, const Backbone& backbone) const {
@@ -125,7 +44,7 @@ bool StaticsSolver::newton(const DeadLoads& loads, Backbone& backbone, int max_i
   double accepted = kInfinity, damping = 1.0;
   bool have_inverse = warm_, inverse_is_fresh = false;
   const auto refresh = [&] {
-    residual_inverse_ = tipColumns(loads, backbone).m.leftCols<3>().inverse();
+    residual_inverse_ = tipColumns(scene_, loads, backbone).m.leftCols<3>().inverse();
     have_inverse = inverse_is_fresh = true;
   };
   for (int i = 0; i < max_iterations && report.iterations < kMaxIterations; ++i) {
@@ -288,7 +207,7 @@ StaticsReport StaticsSolver::solve(const DeadLoads& loads, Backbone& backbone) {
     if (!report.converged) return report;
   } while (refine(backbone, report));
 
-  const StateColumns tip = tipColumns(loads, backbone);
+  const StateColumns tip = tipColumns(scene_, loads, backbone);
   residual_inverse_ = tip.m.leftCols<3>().inverse();
   // dm0 = A^-1 (dM - B df), from the residual's columns [A, B]; C maps [df; dM] to the twist of T.
   const Matrix3 m0_of_force = -residual_inverse_ * tip.m.rightCols<3>();

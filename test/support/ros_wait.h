@@ -1,6 +1,7 @@
 #pragma once
 // Waiting for a condition while callbacks run; never a fixed sleep.
 
+#include <ros/callback_queue.h>
 #include <ros/ros.h>
 
 namespace live_stiffness {

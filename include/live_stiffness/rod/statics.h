@@ -4,7 +4,7 @@
 // For dead loads the force n(s) is known in advance (weights beyond s plus the tip force), so only the base moment m0
 // is unknown: three unknowns for any number of segments and links. The residual is the moment left over at T.
 
-#include "live_stiffness/rod/backbone.h"
+#include "live_stiffness/rod/shooting.h"
 
 namespace live_stiffness {
 
@@ -35,7 +35,6 @@ class StaticsSolver {
 
  private:
   bool march(const DeadLoads& loads, const Vector3& base_moment, Backbone& backbone, Vector3& residual);
-  StateColumns tipColumns(const DeadLoads& loads, const Backbone& backbone) const;
   bool newton(const DeadLoads& loads, Backbone& backbone, int max_iterations, StaticsReport& report);
   bool continuation(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
   void placeFresh(const DeadLoads& loads, Backbone& backbone);
