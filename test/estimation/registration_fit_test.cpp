@@ -140,6 +140,36 @@ TEST(RegistrationFit, BendingInOnePlaneLeavesTheOffsetAcrossItOpen) {
   EXPECT_LT(fit.position.max, 1e-6);
 }
 
+TEST(RegistrationFit, NoiseDoesNotBlowUpAnOffsetThatIsOpen) {
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> normal(0.0, 0.5e-3);
+  std::vector<Pose> X_BT;  // about y of B, and a twitch of 0.1 deg out of the plane that determines nothing
+  for (int k = -20; k <= 20; ++k) X_BT.push_back(bent(radians(0.1 * (k % 2)), k / 20.0 * radians(60.0)));
+  Registration truth;
+  truth.X_TS.p = Vector3(0.006, 0.0, 0.004);
+  std::vector<Pose> X_AS = measured(truth, X_BT);
+  for (Pose& X : X_AS)
+    for (int k = 0; k < 3; ++k) X.p[k] += normal(random);
+  const RegistrationFit fit = fitRegistration(X_BT, X_AS);
+  EXPECT_FALSE(fit.sensor_offset_determined);
+  // Sensitivity to the twitch is 1e-3, so a fit of it would answer 0.5 mm of noise with some 80 mm.
+  EXPECT_LT(std::abs(fit.registration.X_TS.p.y()), 2e-3);
+}
+
+TEST(RegistrationFit, FindsTheBaseFromPositionsAlone) {
+  std::mt19937_64 random(12);
+  const std::vector<Pose> X_BT = bends(3);
+  for (int trial = 0; trial < 50; ++trial) {
+    Registration truth = someRegistration(random);
+    truth.X_TS.p *= 0.3;  // some 5 mm; without orientations the start must come near by itself
+    std::vector<Pose> X_AS = measured(truth, X_BT);
+    for (Pose& X : X_AS) X.R.setIdentity();  // a tracker that reports no orientation
+    const RegistrationFit fit = fitRegistration(X_BT, X_AS);
+    EXPECT_LT((fit.registration.X_AB.R - truth.X_AB.R).norm(), 1e-9) << trial;
+    EXPECT_LT((fit.registration.X_TS.p - truth.X_TS.p).norm(), 1e-9) << trial;
+  }
+}
+
 TEST(RegistrationFit, RefusesUnusableSamplesWithAllFaults) {
   std::vector<Pose> X_BT(2), X_AS(3);
   X_AS[1].p.x() = std::nan("");
