@@ -13,8 +13,8 @@ launch=""
 trap '[ -z "$launch" ] || { kill -INT $launch 2>/dev/null; wait $launch; } || true' EXIT
 cmake --install "$build" >"$build/install.log"
 # A shell that knows nothing of the build.
-run() { env -i HOME="$HOME" PATH=/usr/bin:/bin ROS_HOSTNAME=localhost ROS_MASTER_URI="${ROS_MASTER_URI:-}" \
-  bash -c "source '$prefix/setup.bash' && $1"; }
+clean=(env -i HOME="$HOME" PATH=/usr/bin:/bin ROS_HOSTNAME=localhost)
+run() { "${clean[@]}" ROS_MASTER_URI="${ROS_MASTER_URI:-}" bash -c "source '$prefix/setup.bash' && $1"; }
 scene=$prefix/share/live_stiffness/config/scenes/paper_one_segment.yaml
 rows=$(printf 'p_1_pa,p_2_pa,p_3_pa,p_4_pa,p_5_pa,p_6_pa\n6e4,6e4,0,0,0,0\n' |
   run "rosrun live_stiffness stiffness_solve '$scene'" | grep -c '^ok,')
@@ -24,11 +24,14 @@ if run "ldd '$prefix/lib/live_stiffness/stiffness_node'" | grep "$build/devel"; 
 port=11911
 while (: </dev/tcp/127.0.0.1/$port) 2>/dev/null; do port=$((port + 1)); done
 export ROS_MASTER_URI=http://localhost:$port
-run "exec roslaunch -p $port live_stiffness demo.launch" >"$build/install_launch.log" 2>&1 &
+# Not through run(): the process in the background must be roslaunch itself, so that the trap ends it.
+"${clean[@]}" bash -c "source '$prefix/setup.bash' && exec roslaunch -p $port live_stiffness demo.launch" \
+  >"$build/install_launch.log" 2>&1 &
 launch=$!
-for _ in $(seq 60); do
-  run "timeout 5 rostopic echo -n 1 /stiffness_node/estimate/status" 2>/dev/null | grep -q '^0' && exit 0
+for _ in $(seq 12); do
+  status=$(run "timeout 5 rostopic echo -n 1 /stiffness_node/estimate/status" 2>"$build/install_echo.log") || true
+  [ "${status%%[^0-9]*}" = 0 ] && exit 0
 done
-echo "no estimate from the install space"
-cat "$build/install_launch.log"
+echo "no estimate from the install space; rostopic said:"
+cat "$build/install_echo.log" "$build/install_launch.log"
 exit 1

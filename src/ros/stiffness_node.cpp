@@ -37,6 +37,8 @@ StiffnessNode::StiffnessNode(const ros::NodeHandle& node, const ros::NodeHandle&
   wrench_subscriber_ = node_.subscribe("tip_wrench", 10, &StiffnessNode::onTipWrench, this);
   timers_ = {node_.createTimer(ros::Duration(1.0 / parameters_.heartbeat), &StiffnessNode::onHeartbeat, this),
              node_.createTimer(ros::Duration(1.0 / parameters_.marker_rate), &StiffnessNode::onMarkers, this)};
+  diagnostics_timer_ = node_.createWallTimer(ros::WallDuration(0.2),
+                                             [this](const ros::WallTimerEvent&) { diagnostics_.update(); });
   ROS_INFO("%s, stepping %s, %d segment(s), %d chamber(s) on %d channel(s)", modelName(parameters_.model).c_str(),
            steppingName(parameters_.model.stepping).c_str(), parameters_.scene.segmentCount(),
            parameters_.scene.chamberCount(), pressure_input_.channelCount());

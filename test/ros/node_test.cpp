@@ -6,7 +6,7 @@
 #include <std_msgs/Float32MultiArray.h>
 #include <std_msgs/Float64MultiArray.h>
 #include <tf2_ros/buffer.h>
-#include <tf2_ros/static_transform_broadcaster.h>
+#include <tf2_ros/transform_broadcaster.h>
 #include <tf2_ros/transform_listener.h>
 #include <visualization_msgs/MarkerArray.h>
 
@@ -331,14 +331,15 @@ TEST_F(StiffnessNodeTest, ArraysInAbsoluteKilopascalOnThreeChannelsAndTransformI
 TEST_F(StiffnessNodeTest, FloatArraysInPsiAndSensorInTf) {
   Watched watched("/tf_node");
   ros::Publisher publisher = node_.advertise<std_msgs::Float32MultiArray>("tf/pressures", 10);
-  tf2_ros::StaticTransformBroadcaster broadcaster;
+  tf2_ros::TransformBroadcaster broadcaster;
   std_msgs::Float32MultiArray message;
   const float psi = static_cast<float>(60e3 / 6894.757293168361);
   message.data = {psi, psi, 0.0f, 0.0f, 0.0f, 0.0f};
   EXPECT_TRUE(reaches(watched, bent_, [&] { publisher.publish(message); }));
-  broadcaster.sendTransform(toTransform(expected(bent_).X_BT, ros::Time::now(), "aurora", "aurora_sensor"));
+  const Pose X_BT = expected(bent_).X_BT;
   EXPECT_TRUE(waitFor([&] {
     publisher.publish(message);
+    broadcaster.sendTransform(toTransform(X_BT, ros::Time::now(), "aurora", "aurora_sensor"));
     return watched.error && watched.error->distance < 1e-6;
   }));
 }

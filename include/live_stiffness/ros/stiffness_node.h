@@ -57,6 +57,7 @@ class StiffnessNode {
   TrackerInput tracker_input_;
   ros::Subscriber wrench_subscriber_;
   std::vector<ros::Timer> timers_;
+  ros::WallTimer diagnostics_timer_;  // wall time: a paused or missing clock is just what it must report
 };
 
 }  // namespace live_stiffness
