@@ -10,7 +10,8 @@ case "$prefix" in
 esac
 rm -rf "$prefix"
 launch=""
-trap '[ -z "$launch" ] || { kill -INT $launch 2>/dev/null; wait $launch; } || true' EXIT
+# It must not stay: roslaunch would find every launch file of the package twice, here and in the source.
+trap '[ -z "$launch" ] || { kill -INT $launch 2>/dev/null; wait $launch; } || true; rm -rf "$prefix"' EXIT
 cmake --install "$build" >"$build/install.log"
 # A shell that knows nothing of the build.
 clean=(env -i HOME="$HOME" PATH=/usr/bin:/bin ROS_HOSTNAME=localhost)

@@ -96,7 +96,7 @@ TEST_F(NoAllocation, InAnySolveFromTheFirstOn) {
           if (i % 5 == 0) workspace.reset();
           const Counting counting;
           model.solve(pressures, wrench, workspace);
-          ASSERT_EQ(g_allocations, 0) << "solve " << i << ", " << nameOf(stepping) << ", accuracy " << accuracy;
+          ASSERT_EQ(g_allocations, 0) << "solve " << i << ", " << steppingName(stepping) << ", accuracy " << accuracy;
         }
       }
 }

@@ -42,6 +42,12 @@ double InputWatch::age(const ros::Time& now) const {
   return accepted_ > 0 ? (now - last_accepted_).toSec() : 1e9;
 }
 
+void InputWatch::report(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+  status.add("rate (Hz)", rate_);
+  status.add("accepted", accepted_);
+  status.add("rejected", rejected_);
+}
+
 void InputWatch::restart() {
   last_accepted_ = ros::Time();
   accepted_ = 0;

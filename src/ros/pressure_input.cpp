@@ -84,9 +84,7 @@ void PressureInput::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status
     status.summary(DiagnosticStatus::WARN, "stamps are not in ROS time; the time of arrival is used");
   else
     status.summary(DiagnosticStatus::OK, "ok");
-  status.add("rate (Hz)", watch_.rate());
-  status.add("accepted", watch_.accepted());
-  status.add("rejected", watch_.rejected());
+  watch_.report(status);
 }
 
 }  // namespace live_stiffness

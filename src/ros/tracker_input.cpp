@@ -73,9 +73,7 @@ void TrackerInput::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
     status.summary(DiagnosticStatus::WARN, "position is metres away: millimetres? (set ~aurora_position_unit: mm)");
   else
     status.summary(DiagnosticStatus::OK, "ok");
-  status.add("rate (Hz)", watch_.rate());
-  status.add("accepted", watch_.accepted());
-  status.add("rejected", watch_.rejected());
+  watch_.report(status);
 }
 
 }  // namespace live_stiffness

@@ -23,7 +23,7 @@ void forEachCase(double accuracy, const std::function<void(const Case&)>& check)
   for (int segments : {1, 2})
     for (Stepping stepping : kSteppings)
       for (double largest : {0.0, 1.0, 0.4e5, 1.2e5}) {
-        SCOPED_TRACE(::testing::Message() << segments << " segments, " << nameOf(stepping) << ", " << largest << " Pa");
+        SCOPED_TRACE(::testing::Message() << segments << " segments, " << steppingName(stepping) << ", " << largest << " Pa");
         ModelOptions options = accurateTo(accuracy);
         options.stepping = stepping;
         check({StiffnessModel(weightlessPaperScene(segments), options), random.pairs(6 * segments, 0.0, largest)});

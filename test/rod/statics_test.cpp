@@ -118,7 +118,7 @@ TEST(Statics, AgreesWithThePapersEquationsIntegratedLiterally) {
   RandomSource random(42);
   for (bool loaded : {false, true})
     for (Stepping stepping : kSteppings) {
-      SCOPED_TRACE(::testing::Message() << nameOf(stepping) << (loaded ? ", loaded" : ", pressure only"));
+      SCOPED_TRACE(::testing::Message() << steppingName(stepping) << (loaded ? ", loaded" : ", pressure only"));
       const Pressures pressures = random.pairs(6, 0.0, stepping == Stepping::kLinear ? 1.5e5 : 1.2e5);
       DeadLoads loads;
       if (loaded) loads = {*scene.gravity, kTipForce};
@@ -135,7 +135,7 @@ TEST(Statics, AgreesWithThePapersEquationsIntegratedLiterally) {
       // 50 times the loads' own: 1e-10 in angle.
       const double error = poseError(solution.X_BT, oracle.solve(600), scene.length());
       EXPECT_LT(error, 1e-9);
-      std::cout << nameOf(stepping) << (loaded ? ", loaded" : ", pressure only") << ": " << error << "\n";
+      std::cout << steppingName(stepping) << (loaded ? ", loaded" : ", pressure only") << ": " << error << "\n";
     }
 }
 

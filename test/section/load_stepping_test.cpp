@@ -92,8 +92,8 @@ TEST(Linear, IsOneStepWhoseSectionIsNeverUpdated) {
 TEST(RestState, OfZeroPressureIsTheUnstretchedSection) {
   for (Stepping stepping : kSteppings) {
     const RestState state = restState(paperSection(), Pressures::Zero(6), stepping, 3);
-    EXPECT_EQ(state.stretch, 1.0) << nameOf(stepping);
-    EXPECT_TRUE(matrixNear(state.curvature, Vector3::Zero(), 0.0)) << nameOf(stepping);
+    EXPECT_EQ(state.stretch, 1.0) << steppingName(stepping);
+    EXPECT_TRUE(matrixNear(state.curvature, Vector3::Zero(), 0.0)) << steppingName(stepping);
   }
 }
 
@@ -108,9 +108,9 @@ TEST(RestState, OfOppositePressuresBendsWithoutStretching) {
   ASSERT_GT(expected.norm(), 10.0);  // 1/m: a real bend
   for (Stepping stepping : kSteppings) {
     const RestState state = restState(section, pressures, stepping, 4);
-    ASSERT_TRUE(state.valid) << nameOf(stepping);
-    EXPECT_EQ(state.stretch, 1.0) << nameOf(stepping);
-    EXPECT_TRUE(matrixNear(state.curvature, expected, 1e-14 * expected.norm())) << nameOf(stepping);
+    ASSERT_TRUE(state.valid) << steppingName(stepping);
+    EXPECT_EQ(state.stretch, 1.0) << steppingName(stepping);
+    EXPECT_TRUE(matrixNear(state.curvature, expected, 1e-14 * expected.norm())) << steppingName(stepping);
   }
 }
 
@@ -125,9 +125,9 @@ TEST(RestState, OfTinyPressuresIsLinearTheoryToAllDigits) {
       const RestState state = restState(section, pressures, stepping, 4);
       // What is not linear is of relative size P / E = 1e-8 at 1e-3 Pa, and rounding below.
       const double relative = 1e-13 + 3.0 * pascal / section.youngs_modulus;
-      EXPECT_TRUE(matrixNear(state.curvature, curvature, relative * curvature.norm())) << nameOf(stepping) << pascal;
+      EXPECT_TRUE(matrixNear(state.curvature, curvature, relative * curvature.norm())) << steppingName(stepping) << pascal;
       // A stretch of 1 + e holds e to 1.1e-16, in fixed_step once a step.
-      EXPECT_NEAR(state.stretch - 1.0, elongation, 4.5e-16 + relative * elongation) << nameOf(stepping) << pascal;
+      EXPECT_NEAR(state.stretch - 1.0, elongation, 4.5e-16 + relative * elongation) << steppingName(stepping) << pascal;
     }
   }
 }
@@ -136,7 +136,7 @@ TEST(RestState, ShortensUnderVacuum) {
   const CrossSection section = paperSection();
   for (Stepping stepping : kSteppings) {
     const RestState state = restState(section, Pressures::Constant(6, -0.9e5), stepping, 6);
-    ASSERT_TRUE(state.valid) << nameOf(stepping);
+    ASSERT_TRUE(state.valid) << steppingName(stepping);
     EXPECT_LT(state.stretch, 0.95);
     EXPECT_GT(state.stretch, 0.5);
     EXPECT_TRUE(matrixNear(state.curvature, Vector3::Zero(), 1e-12));  // 1/m, from 6 moments that cancel
@@ -148,9 +148,9 @@ TEST(RestState, BeyondTheLimitOfStretchSaysSoWithTheStretchAndNoNaN) {
   for (Stepping stepping : {Stepping::kFixedStep, Stepping::kContinuous})
     for (double bar : {2.5, 5.0, 100.0, 1e4, 1e12}) {
       const RestState state = restState(section, Pressures::Constant(6, bar * 1e5), stepping, 20);
-      EXPECT_FALSE(state.valid) << nameOf(stepping) << bar;
-      EXPECT_TRUE(std::isfinite(state.stretch)) << nameOf(stepping) << bar;
-      EXPECT_FALSE(SectionMoments(section).isValidAt(state.stretch)) << nameOf(stepping) << bar;
+      EXPECT_FALSE(state.valid) << steppingName(stepping) << bar;
+      EXPECT_TRUE(std::isfinite(state.stretch)) << steppingName(stepping) << bar;
+      EXPECT_FALSE(SectionMoments(section).isValidAt(state.stretch)) << steppingName(stepping) << bar;
     }
 }
 

@@ -46,13 +46,4 @@ StiffnessSolution solveCold(const StiffnessModel& model, const Pressures& pressu
   return model.solve(pressures, tip_wrench, workspace);
 }
 
-const char* nameOf(Stepping stepping) {
-  switch (stepping) {
-    case Stepping::kFixedStep: return "fixed_step";
-    case Stepping::kContinuous: return "continuous";
-    case Stepping::kLinear: return "linear";
-  }
-  return "unknown";
-}
-
 }  // namespace live_stiffness

@@ -30,6 +30,5 @@ StiffnessSolution solveCold(const StiffnessModel& model, const Pressures& pressu
                             const Wrench& tip_wrench = Wrench::Zero());
 
 constexpr Stepping kSteppings[] = {Stepping::kFixedStep, Stepping::kContinuous, Stepping::kLinear};
-const char* nameOf(Stepping stepping);
 
 }  // namespace live_stiffness

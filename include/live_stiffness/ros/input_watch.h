@@ -1,6 +1,7 @@
 #pragma once
 // Health of one input: how old its newest good message is, how fast it comes, and what was wrong with the last bad one.
 
+#include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/time.h>
 
 #include <string>
@@ -24,9 +25,8 @@ class InputWatch {
   bool everAccepted() const { return accepted_ > 0; }
   // Seconds since the last good message; a very large number before the first. Negative after time jumped back.
   double age(const ros::Time& now) const;
-  double rate() const { return rate_; }  // of good messages, 1/s, smoothed
-  long accepted() const { return accepted_; }
-  long rejected() const { return rejected_; }
+  // Adds rate and counts to a diagnostics entry.
+  void report(diagnostic_updater::DiagnosticStatusWrapper& status) const;
   long foreignStamps() const { return foreign_stamps_; }
   // The last fault if it is newer than the last good message, else empty.
   const std::string& currentFault() const { return current_fault_; }
@@ -38,7 +38,7 @@ class InputWatch {
   std::string name_, current_fault_;
   ros::Time last_accepted_;
   ros::WallTime last_logged_;
-  double rate_ = 0.0;
+  double rate_ = 0.0;  // of good messages, 1/s, smoothed
   long accepted_ = 0, rejected_ = 0, foreign_stamps_ = 0;
 };
 
