@@ -5,6 +5,18 @@
 #include <cmath>
 
 namespace live_stiffness {
+namespace {
+
+// True, and the clock restarted, if `last` is at least `seconds` ago. Not ROS_ERROR_THROTTLE and its kin: they share one
+// clock between all inputs, and stop when simulated time does.
+bool isDue(ros::WallTime& last, double seconds) {
+  const ros::WallTime now = ros::WallTime::now();
+  if (now - last < ros::WallDuration(seconds)) return false;
+  last = now;
+  return true;
+}
+
+}  // namespace
 
 void InputWatch::accept(const ros::Time& now) {
   const double interval = accepted_ > 0 ? (now - last_accepted_).toSec() : 0.0;
@@ -21,20 +33,18 @@ void InputWatch::accept(const ros::Time& now) {
 void InputWatch::reject(const std::string& fault) {
   ++rejected_;
   current_fault_ = fault;
-  // Not ROS_ERROR_THROTTLE: that would share one clock between all inputs, and stop when simulated time does.
-  const ros::WallTime now = ros::WallTime::now();
-  if (now - last_logged_ < ros::WallDuration(1.0)) return;
-  last_logged_ = now;
-  ROS_ERROR_STREAM(name_ << ": " << fault);
+  if (isDue(fault_logged_, 1.0)) ROS_ERROR_STREAM(name_ << ": " << fault);
 }
 
 ros::Time InputWatch::stampFor(const ros::Time& stamp, const ros::Time& now) {
   constexpr double kForeign = 10.0;  // s
   if (stamp.isZero()) return now;
+  if (now.isZero()) return stamp;  // simulated time has not begun: the first message overtook /clock
   if (std::abs((stamp - now).toSec()) <= kForeign) return stamp;
   ++foreign_stamps_;
-  ROS_WARN_STREAM_THROTTLE(60.0, name_ << ": stamps are " << (stamp - now).toSec()
-                                       << " s from ROS time (a device's own clock?); using the time of arrival");
+  if (isDue(stamp_logged_, 60.0))
+    ROS_WARN_STREAM(name_ << ": stamps are " << (stamp - now).toSec()
+                          << " s from ROS time (a device's own clock?); using the time of arrival");
   return now;
 }
 

@@ -37,7 +37,7 @@ class InputWatch {
  private:
   std::string name_, current_fault_;
   ros::Time last_accepted_;
-  ros::WallTime last_logged_;
+  ros::WallTime fault_logged_, stamp_logged_;
   double rate_ = 0.0;  // of good messages, 1/s, smoothed
   long accepted_ = 0, rejected_ = 0, foreign_stamps_ = 0;
 };

@@ -1,0 +1,38 @@
+#include "live_stiffness/ros/input_watch.h"
+
+#include <gtest/gtest.h>
+
+namespace live_stiffness {
+namespace {
+
+TEST(InputWatch, KeepsAStampNearRosTimeAndReplacesADevicesClock) {
+  InputWatch watch("input");
+  const ros::Time now(1000.0);
+  EXPECT_EQ(watch.stampFor(ros::Time(999.5), now), ros::Time(999.5));
+  EXPECT_EQ(watch.foreignStamps(), 0);
+  EXPECT_EQ(watch.stampFor(ros::Time(), now), now) << "no stamp at all";
+  EXPECT_EQ(watch.foreignStamps(), 0);
+  EXPECT_EQ(watch.stampFor(ros::Time(12.0), now), now) << "seconds since the device was switched on";
+  EXPECT_EQ(watch.foreignStamps(), 1);
+}
+
+// In a replay the first message may arrive before the first /clock, when ROS time is still zero.
+TEST(InputWatch, KeepsTheStampWhileSimulatedTimeHasNotBegun) {
+  InputWatch watch("input");
+  EXPECT_EQ(watch.stampFor(ros::Time(1000.0), ros::Time()), ros::Time(1000.0));
+  EXPECT_EQ(watch.foreignStamps(), 0);
+}
+
+TEST(InputWatch, FaultLastsUntilTheNextGoodMessage) {
+  InputWatch watch("input");
+  EXPECT_FALSE(watch.everAccepted());
+  EXPECT_GT(watch.age(ros::Time(5.0)), 1e6);
+  watch.reject("bad");
+  EXPECT_EQ(watch.currentFault(), "bad");
+  watch.accept(ros::Time(10.0));
+  EXPECT_TRUE(watch.currentFault().empty());
+  EXPECT_NEAR(watch.age(ros::Time(10.5)), 0.5, 1e-9);
+}
+
+}  // namespace
+}  // namespace live_stiffness
