@@ -49,6 +49,15 @@ Reading<TrackedPose> checkedPose(const ros::Time& stamp, const std::string& fram
   return reading;
 }
 
+template <class Message>
+Message toXyz(const Vector3& v) {
+  Message message;
+  message.x = v.x();
+  message.y = v.y();
+  message.z = v.z();
+  return message;
+}
+
 template <class Matrix, class Array>
 void copyRowByRow(const Matrix& matrix, Array& array) {
   for (int i = 0; i < 6; ++i)
@@ -138,21 +147,8 @@ std::string withoutSlash(const std::string& frame) {
   return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
 }
 
-geometry_msgs::Point toPoint(const Vector3& p) {
-  geometry_msgs::Point point;
-  point.x = p.x();
-  point.y = p.y();
-  point.z = p.z();
-  return point;
-}
-
-geometry_msgs::Vector3 toVector(const Vector3& v) {
-  geometry_msgs::Vector3 vector;
-  vector.x = v.x();
-  vector.y = v.y();
-  vector.z = v.z();
-  return vector;
-}
+geometry_msgs::Point toPoint(const Vector3& p) { return toXyz<geometry_msgs::Point>(p); }
+geometry_msgs::Vector3 toVector(const Vector3& v) { return toXyz<geometry_msgs::Vector3>(v); }
 
 geometry_msgs::Quaternion toQuaternion(const Matrix3& R) {
   Eigen::Quaterniond q(R);
@@ -237,19 +233,17 @@ nav_msgs::Path toPath(const std::vector<Station>& stations, const Pose& X_BT, co
   return path;
 }
 
-TrackingError toTrackingError(const Pose& measured, const Pose& predicted, const ros::Time& stamp,
-                              const std::string& frame) {
-  const Vector3 translation = measured.p - predicted.p;
-  const Vector3 rotation = logSo3(measured.R * predicted.R.transpose());
+TrackingError toTrackingError(const Pose& measured, const Pose& predicted, const Twist& residual,
+                              const ros::Time& stamp, const std::string& frame) {
   TrackingError error;
   error.header.stamp = stamp;
   error.header.frame_id = frame;
   error.measured = toPose(measured);
   error.predicted = toPose(predicted);
-  error.translation = toVector(translation);
-  error.rotation = toVector(rotation);
-  error.distance = translation.norm();
-  error.angle = rotation.norm();
+  error.translation = toVector(linear(residual));
+  error.rotation = toVector(angular(residual));
+  error.distance = linear(residual).norm();
+  error.angle = angular(residual).norm();
   return error;
 }
 

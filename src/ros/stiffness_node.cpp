@@ -26,6 +26,7 @@ StiffnessNode::StiffnessNode(const ros::NodeHandle& node, const ros::NodeHandle&
   estimate_publisher_ = private_node_.advertise<StiffnessEstimate>("estimate", 10);
   tip_pose_publisher_ = private_node_.advertise<geometry_msgs::PoseStamped>("tip_pose", 10);
   error_publisher_ = private_node_.advertise<TrackingError>("tracking_error", 10);
+  wrench_publisher_ = private_node_.advertise<geometry_msgs::WrenchStamped>("tip_wrench_estimate", 10);
   backbone_publisher_ = private_node_.advertise<nav_msgs::Path>("backbone", 1);
   marker_publisher_ = private_node_.advertise<visualization_msgs::MarkerArray>("markers", 1);
   static_tf_broadcaster_.sendTransform(
@@ -113,10 +114,14 @@ void StiffnessNode::expireTipWrench() {
 
 void StiffnessNode::onMeasuredTip(const Pose& measured_X_BT, const ros::Time& stamp) {
   if (estimator_.estimate() == nullptr || isStale()) return;
-  const TrackingError error =
-      toTrackingError(measured_X_BT, estimator_.estimate()->solution.X_BT, stamp, parameters_.base_frame);
-  tracking_error_ = error.distance;
-  error_publisher_.publish(error);
+  const Estimate& estimate = *estimator_.estimate();
+  const Twist residual = residualTwist(measured_X_BT, estimate.solution.X_BT);
+  tracking_error_ = linear(residual).norm();
+  error_publisher_.publish(
+      toTrackingError(measured_X_BT, estimate.solution.X_BT, residual, stamp, parameters_.base_frame));
+  Wrench tip_wrench = estimate.tip_wrench;  // the residual is what the known wrench does not explain
+  linear(tip_wrench) += estimateTipForce(estimate.solution.compliance, residual).force;
+  if (tip_wrench.allFinite()) wrench_publisher_.publish(toWrenchStamped(tip_wrench, stamp, parameters_.base_frame));
 }
 
 void StiffnessNode::onMarkers(const ros::TimerEvent&) {

@@ -9,6 +9,8 @@
 #include <limits>
 #include <vector>
 
+#include "live_stiffness/estimation/tip_force.h"
+
 namespace live_stiffness {
 namespace {
 
@@ -129,7 +131,7 @@ TEST(Conversions, TrackingErrorIsMeasuredMinusPredicted) {
   Pose measured = predicted;
   measured.p += Vector3(0.003, 0.0, -0.004);
   measured.R = expSo3(Vector3(0.0, 0.02, 0.0)) * predicted.R;
-  const TrackingError error = toTrackingError(measured, predicted, ros::Time(1.0), "base");
+  const TrackingError error = toTrackingError(measured, predicted, residualTwist(measured, predicted), ros::Time(1.0), "base");
   EXPECT_NEAR(error.distance, 0.005, 1e-15);
   EXPECT_NEAR(error.angle, 0.02, 1e-14);
   EXPECT_NEAR(error.rotation.y, 0.02, 1e-14);

@@ -14,6 +14,7 @@
 #include <map>
 
 #include "live_stiffness/estimation/registration.h"
+#include "live_stiffness/estimation/tip_force.h"
 #include "live_stiffness/rod/scene_file.h"
 #include "live_stiffness/ros/conversions.h"
 #include "support/estimate_checks.h"
@@ -29,10 +30,12 @@ class Watched {
  public:
   explicit Watched(const std::string& name)
       : estimates_(node_.subscribe(name + "/estimate", 100, &Watched::onEstimate, this)),
-        errors_(node_.subscribe(name + "/tracking_error", 100, &Watched::onError, this)) {}
+        errors_(node_.subscribe(name + "/tracking_error", 100, &Watched::onError, this)),
+        forces_(node_.subscribe(name + "/tip_wrench_estimate", 100, &Watched::onForce, this)) {}
 
   StiffnessEstimate::ConstPtr estimate;
   TrackingError::ConstPtr error;
+  geometry_msgs::WrenchStamped::ConstPtr force;
   long estimates = 0;
   bool always_finite = true;
 
@@ -43,9 +46,10 @@ class Watched {
     always_finite = always_finite && isFinite(*message);
   }
   void onError(const TrackingError::ConstPtr& message) { error = message; }
+  void onForce(const geometry_msgs::WrenchStamped::ConstPtr& message) { force = message; }
 
   ros::NodeHandle node_;
-  ros::Subscriber estimates_, errors_;
+  ros::Subscriber estimates_, errors_, forces_;
 };
 
 std::string parameter(const std::string& key) {
@@ -219,9 +223,13 @@ TEST_F(StiffnessNodeTest, TrackingErrorIsMeasuredAgainstPredictedTip) {
   ASSERT_TRUE(publishUntil(bent_, [&] {
     pose.header.stamp = ros::Time::now();
     poses_.publish(pose);
-    return solvedFor(bent_) && watched_.error && std::abs(watched_.error->distance - std::sqrt(5e-6)) < 1e-6;
+    return solvedFor(bent_) && watched_.force && watched_.error && std::abs(watched_.error->distance - std::sqrt(5e-6)) < 1e-6;
   }));
   EXPECT_NEAR(watched_.error->translation.x, 0.001, 1e-6);
+  ASSERT_TRUE(watched_.force);  // published with every tracking error
+  EXPECT_EQ(watched_.force->header.frame_id, "base");
+  const Vector3 force = estimateTipForce(expected(bent_).compliance, residualTwist(X_BT, expected(bent_).X_BT)).force;
+  EXPECT_NEAR(watched_.force->wrench.force.x, force.x(), 1e-3 * force.norm());
   EXPECT_NEAR(watched_.error->translation.z, 0.002, 1e-6);
   EXPECT_LT(watched_.error->angle, 1e-6);
 }

@@ -73,7 +73,8 @@ geometry_msgs::WrenchStamped toWrenchStamped(const Wrench& wrench, const ros::Ti
 StiffnessEstimate toEstimate(const Estimate& estimate, const ros::Time& stamp, const std::string& frame);
 nav_msgs::Path toPath(const std::vector<Station>& stations, const Pose& X_BT, const ros::Time& stamp,
                       const std::string& frame);
-TrackingError toTrackingError(const Pose& measured, const Pose& predicted, const ros::Time& stamp,
-                              const std::string& frame);
+// residual: twist that takes the predicted pose to the measured one.
+TrackingError toTrackingError(const Pose& measured, const Pose& predicted, const Twist& residual,
+                              const ros::Time& stamp, const std::string& frame);
 
 }  // namespace live_stiffness

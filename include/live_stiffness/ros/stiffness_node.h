@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "live_stiffness/estimation/tip_force.h"
 #include "live_stiffness/ros/markers.h"
 #include "live_stiffness/ros/node_parameters.h"
 #include "live_stiffness/ros/pressure_input.h"
@@ -40,7 +41,8 @@ class StiffnessNode {
   NodeParameters parameters_;
   StiffnessEstimator estimator_;
   MarkerStyle marker_style_;
-  ros::Publisher estimate_publisher_, tip_pose_publisher_, backbone_publisher_, marker_publisher_, error_publisher_;
+  ros::Publisher estimate_publisher_, tip_pose_publisher_, backbone_publisher_, marker_publisher_, error_publisher_,
+      wrench_publisher_;
   tf2_ros::TransformBroadcaster tf_broadcaster_;
   tf2_ros::StaticTransformBroadcaster static_tf_broadcaster_;
   diagnostic_updater::Updater diagnostics_;
