@@ -1,6 +1,7 @@
 #include "live_stiffness/checks.h"
 
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <sstream>
 
@@ -48,6 +49,15 @@ void FaultList::check(const std::string& name, double value, const Range& range)
 
 void FaultList::throwIfAny() const {
   if (!faults_.empty()) throw ConfigurationError(subject_, faults_);
+}
+
+std::string readTextFile(const std::string& subject, const std::string& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();  // of a folder this fails; of an empty file only the formatting flag does
+  if (!file.is_open() || file.bad() || text.bad())
+    throw ConfigurationError(subject + " " + path, {"cannot be read: must be the path of a file"});
+  return text.str();
 }
 
 std::string numberText(double value) {

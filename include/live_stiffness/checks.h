@@ -50,6 +50,9 @@ class FaultList {
   std::vector<std::string> faults_;
 };
 
+// The text of a file. Throws ConfigurationError about `subject` (such as "scene") when it cannot be read.
+std::string readTextFile(const std::string& subject, const std::string& path);
+
 // A number as people write it: shortest text that reads back to the same value up to 6 digits.
 std::string numberText(double value);
 

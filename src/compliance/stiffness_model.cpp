@@ -14,6 +14,7 @@ const char* codeName(SolveCode code) {
     case SolveCode::kInvalidInput: return "invalid_input";
     case SolveCode::kOutOfRange: return "out_of_range";
     case SolveCode::kNotConverged: return "not_converged";
+    case SolveCode::kUnstable: return "unstable";
   }
   return "unknown";
 }
@@ -38,7 +39,7 @@ SolveStatus StiffnessModel::checkInput(PressuresRef pressures, const Wrench& tip
 
 SolveStatus StiffnessModel::stepLoads(PressuresRef pressures, Backbone& backbone) const {
   const double largest = pressures.size() > 0 ? pressures.cwiseAbs().maxCoeff() : 0.0;
-  if (largest > 1e4 * options_.pressure_step) return {SolveCode::kOutOfRange, -1, largest};
+  if (options_.stepping == Stepping::kFixedStep && largest > 1e4 * options_.pressure_step) return {SolveCode::kOutOfRange, -1, largest};
   const int steps = stepCount(largest, options_.pressure_step);
   SolveStatus status;
   int first = 0;
@@ -74,6 +75,10 @@ StiffnessSolution StiffnessModel::solve(PressuresRef pressures, const Wrench& ti
       solution.status = {SolveCode::kNotConverged, -1, report.residual};
       return solution;
     }
+    if (!report.stable) {
+      solution.status = {SolveCode::kUnstable, -1, 0.0};
+      return solution;
+    }
     solution.numerical_error = report.truncation + report.residual;
   } else {
     workspace.statics_.reset();
@@ -85,6 +90,8 @@ StiffnessSolution StiffnessModel::solve(PressuresRef pressures, const Wrench& ti
   solution.material_compliance = tipMaterialCompliance(backbone);
   // Without external load the two are the same matrix.
   solution.compliance = workspace.loaded_ ? workspace.statics_.tangentCompliance() : solution.material_compliance;
+  if (!solution.X_BT.p.allFinite() || !solution.compliance.allFinite() || !solution.material_compliance.allFinite())
+    solution.status = {SolveCode::kNotConverged, -1, 0.0};
   return solution;
 }
 
@@ -109,7 +116,10 @@ std::string StiffnessModel::describe(const SolveStatus& status) const {
       return "segment " + std::to_string(status.index + 1) + " reaches stretch " + value +
              ", where its section has no positive area left: lower its pressures";
     case SolveCode::kNotConverged:
-      return "no equilibrium found; bending left over " + value + " rad: lower the loads, or check the scene";
+      return "no equilibrium found within the bound on iterations: lower the loads or pressures, or check the scene";
+    case SolveCode::kUnstable:
+      return "only an unstable equilibrium was found: the robot would topple under its loads; lower its loads or "
+             "pressures";
   }
   return "unknown status";
 }

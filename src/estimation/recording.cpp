@@ -98,12 +98,7 @@ Recording parseRecording(const std::string& csv, const std::string& name) {
 }
 
 Recording loadRecording(const std::string& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  if (file) text << file.rdbuf();
-  if (!file || text.fail())
-    throw ConfigurationError("recording " + path, {"cannot be read: must be the path of a CSV file"});
-  return parseRecording(text.str(), path);
+  return parseRecording(readTextFile("recording", path), path);
 }
 
 std::vector<Pressures> gaugePressures(const Recording& recording, double rest_window) {

@@ -58,12 +58,7 @@ Registration parseRegistration(const std::string& yaml, const std::string& name)
 }
 
 Registration loadRegistrationFile(const std::string& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  if (file) text << file.rdbuf();
-  if (!file || text.fail())
-    throw ConfigurationError("registration " + path, {"cannot be read: must be the path of a YAML file"});
-  return parseRegistration(text.str(), path);
+  return parseRegistration(readTextFile("registration", path), path);
 }
 
 std::string registrationText(const Registration& registration, const std::string& comment) {

@@ -48,10 +48,12 @@ class RigSimulator {
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "rig_simulator");
+  // Outlive the try block: with the last handle roscpp shuts down, and its log with it.
+  ros::NodeHandle handle, private_handle("~");
   try {
-    RigSimulator simulator(ros::NodeHandle(), ros::NodeHandle("~"));
+    RigSimulator simulator(handle, private_handle);
     ros::spin();
-  } catch (const ConfigurationError& error) {
+  } catch (const std::exception& error) {
     ROS_FATAL("%s", error.what());
     return 2;
   }

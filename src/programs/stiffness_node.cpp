@@ -6,10 +6,12 @@
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "stiffness_node");
+  // Outlive the try block: with the last handle roscpp shuts down, and its log with it.
+  ros::NodeHandle handle, private_handle("~");
   try {
-    live_stiffness::StiffnessNode node(ros::NodeHandle(), ros::NodeHandle("~"));
+    live_stiffness::StiffnessNode node(handle, private_handle);
     ros::spin();
-  } catch (const live_stiffness::ConfigurationError& error) {
+  } catch (const std::exception& error) {
     ROS_FATAL("%s", error.what());
     return 2;
   }

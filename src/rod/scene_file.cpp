@@ -116,7 +116,9 @@ Scene parseScene(const std::string& yaml, const std::string& name) {
   FaultList faults("scene " + name);
   Scene scene;
   try {
-    const YAML::Node document = YAML::Load(yaml);
+    const std::vector<YAML::Node> documents = YAML::LoadAll(yaml);
+    if (documents.size() > 1) faults.add("holds " + std::to_string(documents.size()) + " YAML documents: must be one");
+    const YAML::Node document = documents.empty() ? YAML::Node() : documents.front();
     YamlMap map(document, "", faults);
     if (map.has("gravity_m_s2")) scene.gravity = map.vector("gravity_m_s2");
     else map.child("gravity_m_s2");
@@ -142,12 +144,7 @@ Scene parseScene(const std::string& yaml, const std::string& name) {
 }
 
 Scene loadSceneFile(const std::string& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  if (file) text << file.rdbuf();
-  if (!file || text.fail())
-    throw ConfigurationError("scene " + path, {"cannot be read: must be the path of a YAML file"});
-  return parseScene(text.str(), path);
+  return parseScene(readTextFile("scene", path), path);
 }
 
 }  // namespace live_stiffness

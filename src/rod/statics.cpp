@@ -1,5 +1,6 @@
 #include "live_stiffness/rod/statics.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
@@ -184,9 +185,10 @@ bool StaticsSolver::refine(Backbone& backbone, StaticsReport& report) const {
   return refined;
 }
 
-StaticsReport StaticsSolver::solve(const DeadLoads& loads, Backbone& backbone) {
-  StaticsReport report;
-  chooseElements(loads, backbone);
+// along_loads: by load continuation from the unloaded shape alone, otherwise by the quickest way that works.
+bool StaticsSolver::findEquilibrium(const DeadLoads& loads, bool along_loads, Backbone& backbone,
+                                    StaticsReport& report) {
+  bool converged;
   do {
     const size_t total = std::accumulate(backbone.element_count.begin(), backbone.element_count.end(), 0);
     if (total != backbone.elements.size()) {
@@ -194,19 +196,21 @@ StaticsReport StaticsSolver::solve(const DeadLoads& loads, Backbone& backbone) {
       nodes_hold_guess_ = false;
     }
     if (!warm_) placeFresh(loads, backbone);
-    report.converged = newton(loads, backbone, 20, report);
-    if (!report.converged) {
+    converged = (!along_loads || warm_) && newton(loads, backbone, 20, report);
+    if (!converged && !along_loads) {
       placeFresh(loads, backbone);
-      report.converged = newton(loads, backbone, 30, report);
+      converged = newton(loads, backbone, 30, report);
     }
-    if (!report.converged) {
+    if (!converged) {
       placeFresh(loads, backbone);
-      report.converged = continuation(loads, backbone, report);
+      converged = continuation(loads, backbone, report);
     }
-    warm_ = report.converged;
-    if (!report.converged) return report;
-  } while (refine(backbone, report));
+    warm_ = converged;
+  } while (converged && refine(backbone, report));
+  return converged;
+}
 
+bool StaticsSolver::findTangent(const DeadLoads& loads, const Backbone& backbone) {
   const StateColumns tip = tipColumns(scene_, loads, backbone);
   residual_inverse_ = tip.m.leftCols<3>().inverse();
   // dm0 = A^-1 (dM - B df), from the residual's columns [A, B]; C maps [df; dM] to the twist of T.
@@ -215,8 +219,30 @@ StaticsReport StaticsSolver::solve(const DeadLoads& loads, Backbone& backbone) {
   tangent_.topRightCorner<3, 3>() = tip.p.leftCols<3>() * residual_inverse_;
   tangent_.bottomLeftCorner<3, 3>() = tip.phi.rightCols<3>() + tip.phi.leftCols<3>() * m0_of_force;
   tangent_.bottomRightCorner<3, 3>() = tip.phi.leftCols<3>() * residual_inverse_;
-  report.converged = tangent_.allFinite();
-  warm_ = report.converged;
+  return tangent_.allFinite();
+}
+
+bool StaticsSolver::isStable() const {
+  const Matrix6 symmetric_part = 0.5 * (tangent_ + tangent_.transpose());
+  return symmetric_part.llt().info() == Eigen::Success;
+}
+
+StaticsReport StaticsSolver::solve(const DeadLoads& loads, Backbone& backbone) {
+  StaticsReport report;
+  chooseElements(loads, backbone);
+  report.converged = findEquilibrium(loads, false, backbone, report) && findTangent(loads, backbone);
+  report.stable = report.converged && isStable();
+  if (report.converged && !report.stable) {
+    // Newton's method takes any equilibrium; the one that the robot sags to as its loads grow is more likely stable.
+    StaticsReport second;
+    warm_ = false;
+    chooseElements(loads, backbone);
+    second.converged = findEquilibrium(loads, true, backbone, second) && findTangent(loads, backbone);
+    second.stable = second.converged && isStable();
+    second.iterations += report.iterations;
+    report = second;
+  }
+  warm_ = report.converged && report.stable;
   return report;
 }
 

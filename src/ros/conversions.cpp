@@ -11,6 +11,8 @@
 namespace live_stiffness {
 namespace {
 
+constexpr double kFarthest = 1000.0;  // m; beyond any tracker's reach, in millimetres too
+
 template <class Array>
 Pressures toVectorXd(const Array& array) {
   Pressures values(array.size());
@@ -39,6 +41,9 @@ Reading<TrackedPose> checkedPose(const ros::Time& stamp, const std::string& fram
   const Eigen::Quaterniond rotation(q.w, q.x, q.y, q.z);
   if (!position.allFinite() || !rotation.coeffs().allFinite())
     return faulty<TrackedPose>("pose is not finite: the tracker does not see its sensor");
+  if (position_unit * position.norm() > kFarthest)
+    return faulty<TrackedPose>("position is " + numberText(position_unit * position.norm()) + " m away: must be within " +
+                               numberText(kFarthest) + " m");
   const double norm = rotation.norm();
   if (norm < 1e-6) return faulty<TrackedPose>("quaternion is zero: the tracker does not see its sensor");
   if (std::abs(norm - 1.0) > 0.05)

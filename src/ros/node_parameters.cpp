@@ -23,12 +23,17 @@ void readModel(ParameterReader& read, NodeParameters& parameters, FaultList& fau
   parameters.heartbeat = read.number("heartbeat_hz", parameters.heartbeat, {0.1, 1000.0});
 }
 
-void readPressureInput(ParameterReader& read, NodeParameters& parameters) {
+void readPressureInput(ParameterReader& read, NodeParameters& parameters, FaultList& faults) {
   PressureFormat& format = parameters.pressure_format;
   format.unit = pascalsPerUnit(read.choice("pressure_unit", "Pa", {"Pa", "kPa", "bar", "mbar", "psi"}));
   format.absolute = read.choice("pressure_reference", "gauge", {"gauge", "absolute"}) == "absolute";
   format.atmosphere = read.number("atmospheric_pressure_pa", format.atmosphere, {50e3, 120e3});
   parameters.pressure_topics = read.texts("pressure_topics");
+  for (const std::string& topic : parameters.pressure_topics) {
+    std::string reason;
+    if (!ros::names::validate(topic, reason) || topic.empty())
+      faults.add("~pressure_topics: " + topic + " is no topic name: " + reason);
+  }
   parameters.channel_of_chamber = read.indices("channel_of_chamber");
   parameters.pressure_timeout = read.number("pressure_timeout_s", parameters.pressure_timeout, Range::positive());
 }
@@ -44,9 +49,12 @@ void readTracker(ParameterReader& read, NodeParameters& parameters) {
   parameters.registration = read.file<Registration>("registration_file", loadRegistrationFile, false);
 }
 
-void readDisplay(ParameterReader& read, NodeParameters& parameters) {
+void readDisplay(ParameterReader& read, NodeParameters& parameters, FaultList& faults) {
   parameters.base_frame = withoutSlash(read.text("base_frame", "base"));
   parameters.tip_frame = withoutSlash(read.text("tip_frame", "tip"));
+  if (parameters.base_frame.empty() || parameters.tip_frame.empty() || parameters.base_frame == parameters.tip_frame)
+    faults.add("~base_frame = " + parameters.base_frame + ", ~tip_frame = " + parameters.tip_frame +
+               ": must be two different names");
   parameters.estimator.fractions =
       read.numbers("ellipsoid_fractions", parameters.estimator.fractions, {0.0, 1.0});
   parameters.ellipsoid_scale = read.number("ellipsoid_scale_m_per_m_n", parameters.ellipsoid_scale, Range::positive());
@@ -69,9 +77,9 @@ NodeParameters loadNodeParameters(const ros::NodeHandle& private_node) {
   ParameterReader read(private_node, faults);
   NodeParameters parameters;
   readModel(read, parameters, faults);
-  readPressureInput(read, parameters);
+  readPressureInput(read, parameters, faults);
   readTracker(read, parameters);
-  readDisplay(read, parameters);
+  readDisplay(read, parameters, faults);
   readScene(read, parameters, faults);
   for (const std::string& key : read.unknown()) ROS_WARN("parameter ~%s is not known to stiffness_node", key.c_str());
   faults.throwIfAny();

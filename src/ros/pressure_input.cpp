@@ -16,40 +16,59 @@ ChannelMap makeChannelMap(const NodeParameters& parameters) {
 
 PressureInput::PressureInput(ros::NodeHandle node, const NodeParameters& parameters, OnPressures on_pressures,
                              OnFault on_fault)
-    : parameters_(parameters),
+    : node_(std::move(node)),
+      parameters_(parameters),
       on_pressures_(std::move(on_pressures)),
       on_fault_(std::move(on_fault)),
       channel_map_(makeChannelMap(parameters)),
       watch_("chamber_pressures") {
+  subscribe();
+}
+
+void PressureInput::subscribe() {
   const std::vector<std::string>& topics = parameters_.pressure_topics;
+  subscribers_.clear();
   if (topics.empty()) {
-    subscribers_.push_back(node.subscribe("chamber_pressures", 10, &PressureInput::onMessage, this));
+    subscribers_.push_back(node_.subscribe("chamber_pressures", 10, &PressureInput::onMessage, this));
     return;
   }
   channels_.setZero(topics.size());
-  is_heard_.assign(topics.size(), false);
+  heard_.assign(topics.size(), ros::Time());
   for (size_t channel = 0; channel < topics.size(); ++channel) {
     const boost::function<void(const sensor_msgs::FluidPressure::ConstPtr&)> callback =
         [this, channel](const sensor_msgs::FluidPressure::ConstPtr& message) { onChannel(message, channel); };
-    subscribers_.push_back(node.subscribe<sensor_msgs::FluidPressure>(topics[channel], 10, callback));
+    subscribers_.push_back(node_.subscribe<sensor_msgs::FluidPressure>(topics[channel], 10, callback));
   }
+}
+
+void PressureInput::tend() {
+  if (parameters_.pressure_topics.empty() && isStale() && subscribers_.front().getNumPublishers() == 0) subscribe();
+}
+
+// A channel that is silent or faulty makes the pressures as a whole stale.
+bool PressureInput::allHeard(const ros::Time& now) const {
+  return std::all_of(heard_.begin(), heard_.end(), [&](const ros::Time& heard) {
+    return !heard.isZero() && (now - heard).toSec() <= parameters_.pressure_timeout;
+  });
 }
 
 void PressureInput::onMessage(const topic_tools::ShapeShifter::ConstPtr& message) {
   take(readPressures(*message, parameters_.pressure_format));
 }
 
-// One topic per channel: nothing is known until every channel has been heard.
+// One topic per channel: nothing is known unless every channel has just been heard.
 void PressureInput::onChannel(const sensor_msgs::FluidPressure::ConstPtr& message, size_t channel) {
   const Reading<double> reading = readPressure(*message, parameters_.pressure_format);
   Reading<Pressures> all;
   all.stamp = reading.stamp;
   if (reading.ok()) {
+    const ros::Time now = ros::Time::now();
     channels_[channel] = reading.value;
-    is_heard_[channel] = true;
+    heard_[channel] = now;
     all.value = channels_;
-    if (std::find(is_heard_.begin(), is_heard_.end(), false) != is_heard_.end()) return;
+    if (!allHeard(now)) return;
   } else {
+    heard_[channel] = ros::Time();
     all.fault = parameters_.pressure_topics[channel] + ": " + reading.fault;
   }
   take(all);

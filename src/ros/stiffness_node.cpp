@@ -81,6 +81,8 @@ void StiffnessNode::publishEstimate() {
 }
 
 void StiffnessNode::onHeartbeat(const ros::TimerEvent&) {
+  pressure_input_.tend();
+  tracker_input_.tend();
   expireTipWrench();
   if (isStale()) publishEstimate();
   else react(estimator_.solve());

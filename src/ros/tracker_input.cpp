@@ -11,13 +11,18 @@ constexpr double kPlausibleReach = 5.0;  // m; a position beyond is in millimetr
 }  // namespace
 
 TrackerInput::TrackerInput(ros::NodeHandle node, const NodeParameters& parameters, OnTip on_tip)
-    : parameters_(parameters), on_tip_(std::move(on_tip)), watch_("aurora_pose") {
+    : node_(node), parameters_(parameters), on_tip_(std::move(on_tip)), watch_("aurora_pose") {
   if (parameters_.tracker_tf_frame.empty()) {
     subscriber_ = node.subscribe("aurora_pose", 10, &TrackerInput::onMessage, this);
   } else {
     tf_listener_ = std::make_unique<tf2_ros::TransformListener>(tf_buffer_, node);
     tf_timer_ = node.createTimer(ros::Duration(1.0 / kTfPollRate), &TrackerInput::onTfPoll, this);
   }
+}
+
+void TrackerInput::tend() {
+  if (!parameters_.tracker_tf_frame.empty() || freshTip() || subscriber_.getNumPublishers() > 0) return;
+  subscriber_ = node_.subscribe("aurora_pose", 10, &TrackerInput::onMessage, this);
 }
 
 void TrackerInput::onMessage(const topic_tools::ShapeShifter::ConstPtr& message) {

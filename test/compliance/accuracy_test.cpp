@@ -26,12 +26,16 @@ TEST(NumericalError, BoundsTheTrueErrorWithinAFactorOfTen) {
       const StiffnessModel models[] = {{scene, accurateTo(1e-4)}, {scene, accurateTo(1e-5)}, {scene, accurateTo(1e-6)}};
       RandomSource random(seed);
       double worst_ratio = 0.0, worst_error = 0.0;
+      int solved = 0;
       for (int i = 0; i < 300; ++i) {
         const Pressures pressures = random.pairs(6 * segments, -0.3e5, 1.2e5);
         const Wrench wrench = random.wrench(0.1, 2e-3);
         const StiffnessSolution a = solveCold(models[i % 3], pressures, wrench);
         const StiffnessSolution b = solveCold(exact, pressures, wrench);
-        ASSERT_TRUE(a.status.ok() && b.status.ok()) << i;
+        ASSERT_EQ(a.status.code, b.status.code) << i;
+        if (a.status.code == SolveCode::kUnstable) continue;  // standing segments at their highest pressures may topple
+        ASSERT_TRUE(a.status.ok()) << i;
+        ++solved;
         const double error = errorOf(a, b, scene.length());
         // The reference itself is no better than its residual of 1e-12 rad.
         EXPECT_LE(error, 10.0 * a.numerical_error + 1e-11) << i << ", pressures " << pressures.transpose()
@@ -39,6 +43,7 @@ TEST(NumericalError, BoundsTheTrueErrorWithinAFactorOfTen) {
         worst_ratio = std::max(worst_ratio, (error - 1e-11) / a.numerical_error);
         worst_error = std::max(worst_error, error);
       }
+      EXPECT_GE(solved, 295);
       std::cout << segments << " segments: error at most " << worst_error << ", " << worst_ratio
                 << " times numerical_error\n";
     }

@@ -16,6 +16,7 @@ enum class SolveCode {
   kInvalidInput = 1,  // wrong channel count, or a value that is not finite or not physical
   kOutOfRange = 2,    // the pressures stretch a section beyond the range where it has positive area
   kNotConverged = 3,  // no equilibrium found within the bound on iterations
+  kUnstable = 4,      // only an unstable equilibrium was found: the robot would topple, or is at the brink of it
 };
 
 // Why a solve failed, without allocation; text() is for people.
@@ -27,7 +28,7 @@ struct SolveStatus {
   bool ok() const { return code == SolveCode::kOk; }
 };
 
-// Name of a code as programs print it: "ok", "invalid_input", "out_of_range", "not_converged".
+// Name of a code as programs print it: "ok", "invalid_input", "out_of_range", "not_converged", "unstable".
 const char* codeName(SolveCode code);
 
 struct StiffnessSolution {

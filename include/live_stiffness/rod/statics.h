@@ -10,7 +10,8 @@ namespace live_stiffness {
 
 struct StaticsReport {
   bool converged = false;
-  int iterations = 0;          // passes over the chain, all attempts together; at most kMaxIterations
+  bool stable = false;         // the tangent compliance is positive definite; false: buckled over, or at the brink
+  int iterations = 0;          // passes over the chain, all attempts together; at most 2 kMaxIterations
   double residual = 0.0;       // of the tip moment, as bending of the softest segment over its length, rad
   double truncation = 0.0;     // estimated relative error of discretisation
 };
@@ -23,7 +24,8 @@ class StaticsSolver {
   StaticsSolver(const Scene& scene, double accuracy);
 
   // Solves from backbone.rest. Starts from the last solution unless reset() was called; falls back to the unloaded
-  // shape, damped steps and load continuation. On success backbone holds the shape and `tangent` can be read.
+  // shape, damped steps and load continuation. Of an unstable equilibrium it tries once more along the loads from zero,
+  // and keeps the stable one if that finds it. On success backbone holds the shape and the tangent can be read.
   StaticsReport solve(const DeadLoads& loads, Backbone& backbone);
 
   // Compliance of T under a dead wrench at T (base axes), by the derivative of the loaded equilibrium: tangent, 6x6.
@@ -34,6 +36,9 @@ class StaticsSolver {
   void reset() { warm_ = false; }
 
  private:
+  bool findEquilibrium(const DeadLoads& loads, bool along_loads, Backbone& backbone, StaticsReport& report);
+  bool findTangent(const DeadLoads& loads, const Backbone& backbone);
+  bool isStable() const;
   bool march(const DeadLoads& loads, const Vector3& base_moment, Backbone& backbone, Vector3& residual);
   bool newton(const DeadLoads& loads, Backbone& backbone, int max_iterations, StaticsReport& report);
   bool continuation(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);

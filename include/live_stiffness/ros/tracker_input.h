@@ -25,6 +25,8 @@ class TrackerInput {
 
   // The newest measured pose of T in B, if it is not older than pose_timeout.
   std::optional<Pose> freshTip() const;
+  // Call now and then: a subscriber keeps the type of its first publisher, so it is renewed when that one is gone.
+  void tend();
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
  private:
@@ -32,6 +34,7 @@ class TrackerInput {
   void onTfPoll(const ros::TimerEvent&);
   void take(const Reading<TrackedPose>& reading);
 
+  ros::NodeHandle node_;
   const NodeParameters& parameters_;
   OnTip on_tip_;
   InputWatch watch_;
