@@ -46,8 +46,8 @@ inline Vector3 bodyRateToVectorRate(const Vector3& w, const Vector3& u,
   return u + 0.5 * w_cross_u + angleD(w.squaredNorm(), series_below) * w.cross(w_cross_u);
 }
 
-// The rotation near a product of many rotations: one Newton-Schulz step R (3 I - R^T R) / 2. A departure e = |R^T R - I|
-// from orthonormality becomes 3/4 e^2 plus rounding, so one step suffices for e < 1e-8.
+// The rotation near a product of many rotations: one Newton-Schulz step R (3 I - R^T R) / 2. What R lacks of
+// orthonormality, e = |R^T R - I|, becomes 3/4 e^2 plus rounding, so one step suffices for e < 1e-8.
 //
 // Each plain product adds some 1e-16 to e: by chance over different rotations (3e-12 after a million), steadily if one
 // is repeated (1e-10). So apply this after every product of an endless chain, or every ten for 1e-14. The chains of a
