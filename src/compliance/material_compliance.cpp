@@ -47,6 +47,25 @@ void unpackLane(const RodElement& element, double stretch, const StationBatch& b
     for (int i = 0; i < 6; ++i) station.compliance(i, j) = batch.compliance[kPackedIndex[i][j]][lane];
 }
 
+// The station at the end of a piece of the element, integrated anew: slower, and as accurate as the tip.
+void stationOfPiece(const Backbone& backbone, const RodElement& element, double part, bool loaded, Station& station) {
+  RodElement piece = element;
+  piece.state.length *= part;
+  if (loaded) {
+    for (StageRow& row : piece.state.g)
+      for (double& g : row) g *= part;
+    integrate(*backbone.passes, piece);  // shorter than a converged element, so it converges
+  } else {
+    backbone.passes->place_unloaded(piece.state);
+  }
+  backbone.passes->material(piece.state);
+  Packed total;
+  for (int i = 0; i < kPackedSize; ++i) total.at[i] = element.start_compliance[i] + piece.state.compliance[i];
+  station.X_BS = piece.X_end();
+  total.shift(station.X_BS.p - element.p_start);
+  station.compliance = total.matrix();
+}
+
 }  // namespace
 
 Matrix6 accumulateMaterial(Backbone& backbone) {
@@ -63,7 +82,8 @@ Matrix6 accumulateMaterial(Backbone& backbone) {
   return total.matrix();
 }
 
-void stationsAt(const Backbone& backbone, int segment, const std::vector<double>& fractions, std::vector<Station>& out) {
+void stationsAt(const Backbone& backbone, int segment, const std::vector<double>& fractions, double accuracy,
+                bool loaded, std::vector<Station>& out) {
   const int first = backbone.firstElement(segment), count = backbone.element_count[segment];
   out.resize(fractions.size());
   const auto along = [&](size_t i) { return std::clamp(fractions[i], 0.0, 1.0) * count; };
@@ -71,6 +91,12 @@ void stationsAt(const Backbone& backbone, int segment, const std::vector<double>
   for (size_t i = 0; i < fractions.size();) {
     const int k = elementOf(i);
     const RodElement& element = backbone.elements[first + k];
+    const double part = along(i) - k;
+    if (element.state.interior_error > accuracy && part > 0.0 && part < 1.0) {
+      stationOfPiece(backbone, element, part, loaded, out[i]);
+      out[i++].stretch = backbone.rest[segment].stretch;
+      continue;
+    }
     StationBatch batch;
     std::copy_n(element.start_compliance, kPackedSize, batch.start_compliance);
     int filled = 0;

@@ -25,8 +25,8 @@ StiffnessModel::StiffnessModel(Scene scene, ModelOptions options) : scene_(std::
   faults.check("accuracy", options_.accuracy, {1e-13, 1e-2});
   if (options_.stages != 0) faults.check("stages", options_.stages, {kMinStages, kMaxStages});
   faults.throwIfAny();
-  for (const Body& body : scene_.chain)
-    if (const auto* segment = std::get_if<Segment>(&body)) steppers_.emplace_back(segment->section);
+  walk(
+      scene_, [&](int, const Segment& segment) { steppers_.emplace_back(segment.section); }, [](const Link&) {});
 }
 
 SolveStatus StiffnessModel::checkInput(PressuresRef pressures, const Wrench& tip_wrench) const {
@@ -100,7 +100,7 @@ Station StiffnessModel::station(const StiffnessWorkspace& workspace, int segment
 
 void StiffnessModel::stations(const StiffnessWorkspace& workspace, int segment, const std::vector<double>& fractions,
                               std::vector<Station>& out) const {
-  stationsAt(workspace.backbone(), segment, fractions, out);
+  stationsAt(workspace.backbone(), segment, fractions, options_.accuracy, workspace.loaded(), out);
 }
 
 std::string StiffnessModel::describe(const SolveStatus& status) const {

@@ -3,14 +3,11 @@
 namespace live_stiffness {
 
 Chain::Chain(const Scene& scene) : mass(scene.tip_mass), tip_mass(scene.tip_mass), tip_offset(scene.tip_offset) {
-  int segments = 0;
-  for (const Body& body : scene.chain) {
-    if (const auto* segment = std::get_if<Segment>(&body))
-      parts.push_back({segments++, segment->length, segment->mass()});
-    else
-      parts.push_back({-1, std::get<Link>(body).length, std::get<Link>(body).mass});
-    mass += parts.back().mass;
-  }
+  walk(
+      scene,
+      [&](int index, const Segment& segment) { parts.push_back({index, segment.length, segment.mass()}); },
+      [&](const Link& link) { parts.push_back({-1, link.length, link.mass}); });
+  for (const Part& part : parts) mass += part.mass;
 }
 
 }  // namespace live_stiffness

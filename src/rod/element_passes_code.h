@@ -14,7 +14,7 @@ namespace {
 template <int kStages>
 struct Passes {
   static constexpr int kVectors = (kStages + kLanes) / kLanes;  // nodes and end
-  static constexpr int kDense = kStages <= 3 ? 4 : kStages <= 5 ? 8 : 12;  // nodes of material()
+  static constexpr int kDense = kStages <= 5 ? 8 : 12;  // nodes of material()
   static constexpr int kDenseVectors = kDense / kLanes;
 
   struct Tables {
@@ -151,6 +151,10 @@ struct Passes {
     }
     const double low = kDecay * kDecay * below;
     e.truncation = __builtin_fabs(e.length) * __builtin_sqrt(top > low ? top : low);
+    // Between the nodes the first coefficient left out shows, once integrated; it goes on shrinking as the last ones.
+    double shrink = below > 0.0 ? __builtin_sqrt(top / below) : 0.0;
+    shrink = shrink < kDecay ? kDecay : shrink > 1.0 ? 1.0 : shrink;
+    e.interior_error = e.truncation * shrink / kStages;
   }
 
   static void finish(ElementState& e) { pass<true>(e); }
@@ -315,6 +319,14 @@ struct Passes {
       R[v] = R_start * cayley(h * g);
       store(e.dense_tangent, v, tangentOf(e, R[v].z, n_start - load(t.c, v) * reach));
     }
+    // Collocation is more accurate at the end than on the way; a constant takes the difference out.
+    Lanes3 missing{};
+    for (int v = 0; v < kDenseVectors; ++v) missing = missing - load(t.b, v) * load(e.dense_tangent, v);
+    const double per_length = 1.0 / e.length;
+    const Lanes3 constant{splat(sum(missing.x) + per_length * e.offset_end[0]),
+                          splat(sum(missing.y) + per_length * e.offset_end[1]),
+                          splat(sum(missing.z) + per_length * e.offset_end[2])};
+    for (int v = 0; v < kDenseVectors; ++v) store(e.dense_tangent, v, load(e.dense_tangent, v) + constant);
     Lanes total[kPackedSize] = {};
     for (int v = 0; v < kDenseVectors; ++v) {
       Lanes3 r{};
@@ -340,19 +352,21 @@ struct Passes {
       }
   }
 
-  // Everything as Legendre series in x, integrated from 0 to x: int P_k = (P_{k+1} - P_{k-1}) / (2 (2 k + 1)).
+  // Everything as Legendre series in x, integrated from 0 to x, which is exactly nothing at x = 0:
+  //   int P_k(xi) dx = (xi^2 - 1) P_k'(xi) / (2 k (k + 1)),  P_{k+1}' = P_{k-1}' + (2 k + 1) P_k,  xi = 2 x - 1.
   static void stations(const ElementState& e, StationBatch& s) {
     const GaussLegendre& t = tables().dense;
     for (int v = 0; v < kStationBatch / kLanes; ++v) {
-      const Lanes x = load(s.fraction, v), xi = 2.0 * x - 1.0;
-      Lanes integral[kDense], before = splat(1.0), now = xi;
+      const Lanes x = load(s.fraction, v), xi = 2.0 * x - 1.0, bubble = 2.0 * x * (x - 1.0);
+      Lanes integral[kDense], before = splat(1.0), now = xi, slope_before{}, slope = splat(1.0);
       integral[0] = x;
 #pragma GCC unroll 12
       for (int k = 1; k < kDense; ++k) {
-        const Lanes next = ((2 * k + 1.0) / (k + 1.0)) * xi * now - (k / (k + 1.0)) * before;
-        integral[k] = (next - before) * (0.5 / (2 * k + 1));
-        before = now;
-        now = next;
+        integral[k] = bubble * slope * (1.0 / (k * (k + 1)));
+        const Lanes next_slope = slope_before + (2.0 * k + 1.0) * now;
+        const Lanes next = ((2.0 * k + 1.0) / (k + 1.0)) * xi * now - (k / (k + 1.0)) * before;
+        slope_before = slope, slope = next_slope;
+        before = now, now = next;
       }
       Lanes3 g{};
       for (int k = 0; k < kStages; ++k) g = g + integral[k] * splat(e.g_rate_series[k]);

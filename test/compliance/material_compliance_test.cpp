@@ -33,7 +33,7 @@ Matrix6 complianceBySimpson(const Solved& solved, int segment, double fraction) 
   for (int k = 0; k <= segment; ++k) {
     const RestState& rest = solved.workspace.backbone().rest[k];
     const double to = k == segment ? fraction : 1.0;
-    const double length = to * solved.workspace.backbone().length(solved.model.scene(), k);
+    const double length = to * solved.workspace.backbone().length(k);
     constexpr int kPanels = 400;
     for (int i = 0; i <= kPanels; ++i) {
       const double weight = length * (i == 0 || i == kPanels ? 1.0 : i % 2 ? 4.0 : 2.0) / (3.0 * kPanels);

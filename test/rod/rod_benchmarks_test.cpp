@@ -90,18 +90,18 @@ TEST(RodBenchmarks, UniformDeadLoad) {
 // to the base it is an initial value problem.
 Vector3 tipByMarchingFromTip(const Rod& rod, const Vector3& tip_force, const Vector3& follower_load) {
   constexpr int kElements = 32;
+  const ElementPasses& passes = elementPasses(kMaxStages, Simd::kBest);
   RodElement element;
-  element.n_start = tip_force;
-  element.follower_load = follower_load;
-  element.length = -std::get<Segment>(rod.scene.chain[0]).length / kElements;
+  element.setSection(rod.rest);
+  element.setLoads(Vector3::Zero(), follower_load);
+  element.setStart(Pose(), tip_force, Vector3::Zero());
+  element.state.length = -std::get<Segment>(rod.scene.chain[0]).length / kElements;
   for (int i = 0; i < kElements; ++i) {
-    resetGuess(rod.rest, element);
-    EXPECT_TRUE(integrate(rod.rest, element));
-    element.X_start = element.X_end;
-    element.n_start = element.n_end;
-    element.m_start = element.m_end;
+    resetGuess(element);
+    EXPECT_TRUE(integrate(passes, element));
+    element.setStart(element.X_end(), element.n_end(), element.m_end());
   }
-  return element.X_end.inverse().p;
+  return element.X_start().inverse().p;
 }
 
 TEST(RodBenchmarks, UniformFollowerLoad) {

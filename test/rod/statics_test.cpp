@@ -155,8 +155,7 @@ TEST(Statics, WithoutLoadIsTheUnloadedShape) {
   EXPECT_TRUE(matrixNear(solver.baseMoment(), Vector3::Zero(), 0.0));
   Backbone closed(scene);
   closed.rest = backbone.rest;
-  chooseUnloadedElements(scene, closed);
-  placeUnloaded(scene, closed);
+  solver.placeUnloaded(closed);
   EXPECT_LT(poseError(backbone.X_BT, closed.X_BT, scene.length()), 1e-12);  // the accuracy asked for
 }
 

@@ -18,7 +18,9 @@ struct Station {
 Matrix6 accumulateMaterial(Backbone& backbone);
 
 // Stations at fractions (0 to 1, in any order; values beyond are moved to the ends) of a segment's length. Needs
-// accumulateMaterial(). out: as many as fractions.
-void stationsAt(const Backbone& backbone, int segment, const std::vector<double>& fractions, std::vector<Station>& out);
+// accumulateMaterial(). Read from the collocation polynomials where these are accurate enough (relative), else
+// integrated anew. loaded: the backbone comes from statics. out: as many as fractions.
+void stationsAt(const Backbone& backbone, int segment, const std::vector<double>& fractions, double accuracy,
+                bool loaded, std::vector<Station>& out);
 
 }  // namespace live_stiffness

@@ -22,6 +22,8 @@ struct Backbone {
   Simd simd() const { return simd_; }
   // First element of a segment in `elements`.
   int firstElement(int segment) const;
+  // Stretched length of a segment, m.
+  double length(int segment) const { return element_count[segment] * elements[firstElement(segment)].state.length; }
   // Makes as many elements as element_count says, of so many stages. True if that changed anything: nodes and columns
   // then hold no guess.
   bool resize(int stages);

@@ -35,7 +35,8 @@ struct ElementState {
   double R_end[9], n_end[3], m_end[3];
   double change;      // norm of the change of all g in it
   double size;        // norm of all g, before it
-  double truncation;  // size of the highest Legendre coefficient of length * g', or what the one below lets expect
+  double truncation;      // size of the highest Legendre coefficient of length * g', or what the one below lets expect
+  double interior_error;  // estimate of the relative error between the nodes
 
   // Shape at the nodes, filled by finish(); offsets by place_unloaded(), too.
   StageRow R[9], tangent[3], offset[3];  // orientation, p', position from the start (m)

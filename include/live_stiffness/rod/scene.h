@@ -40,4 +40,14 @@ struct Scene {
   bool hasWeight() const;    // gravity acts on some mass
 };
 
+// Calls onSegment(index, segment) and onLink(link) from base to tip.
+template <class OnSegment, class OnLink>
+void walk(const Scene& scene, OnSegment on_segment, OnLink on_link) {
+  int index = 0;
+  for (const Body& body : scene.chain) {
+    if (const auto* segment = std::get_if<Segment>(&body)) on_segment(index++, *segment);
+    else on_link(std::get<Link>(body));
+  }
+}
+
 }  // namespace live_stiffness
