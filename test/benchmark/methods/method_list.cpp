@@ -1,0 +1,51 @@
+#include "benchmark/methods/method_list.h"
+
+#include "benchmark/methods/common_practice.h"
+#include "benchmark/methods/library_method.h"
+#include "benchmark/methods/magnus.h"
+#include "benchmark/methods/rk4_sensitivities.h"
+#include "benchmark/methods/textbook.h"
+#include "live_stiffness/checks.h"
+
+namespace live_stiffness {
+namespace {
+
+template <class Method>
+auto maker(int resolution) {
+  return [=](const Scene& scene) -> std::unique_ptr<StiffnessMethod> {
+    return std::make_unique<Method>(scene, resolution);
+  };
+}
+
+MethodEntry library(const std::string& family, const std::string& variant, double resolution,
+                    const ModelOptions& options) {
+  return {family, variant, resolution, [=](const Scene& scene) -> std::unique_ptr<StiffnessMethod> {
+            return std::make_unique<LibraryMethod>(family + ", " + variant, scene, options);
+          }};
+}
+
+}  // namespace
+
+std::vector<MethodEntry> methodList() {
+  std::vector<MethodEntry> list;
+  list.push_back({"textbook", "N=100", 100, maker<Textbook>(100)});
+  for (const auto jacobians : {CommonPractice::Jacobians::kFresh, CommonPractice::Jacobians::kReused})
+    list.push_back({jacobians == CommonPractice::Jacobians::kFresh ? "common practice" : "common practice, tuned", "N=50",
+                    CommonPractice::kSteps, [=](const Scene& scene) -> std::unique_ptr<StiffnessMethod> {
+                      return std::make_unique<CommonPractice>(scene, jacobians);
+                    }});
+  for (int steps : {10, 20, 50, 100})
+    list.push_back({"RK4, sensitivities", "N=" + std::to_string(steps), double(steps), maker<Rk4Sensitivities>(steps)});
+  for (int elements : {1, 2, 4, 8, 16})
+    list.push_back({"Magnus 4", std::to_string(elements) + " el.", double(elements), maker<Magnus<2>>(elements)});
+  for (int elements : {1, 2, 4, 8})
+    list.push_back({"Magnus 6", std::to_string(elements) + " el.", double(elements), maker<Magnus<3>>(elements)});
+  for (double accuracy : {1e-3, 1e-6, 1e-9}) {
+    ModelOptions options;
+    options.accuracy = accuracy;
+    list.push_back(library("library", "accuracy " + numberText(accuracy), accuracy, options));
+  }
+  return list;
+}
+
+}  // namespace live_stiffness
