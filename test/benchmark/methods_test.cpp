@@ -18,8 +18,8 @@ namespace {
 double errorBound(const MethodEntry& entry) {
   const double n = entry.resolution;
   if (entry.family == "textbook") return 5e-5;
-  if (entry.family == "common practice" || entry.family == "common practice, tuned") return 1e-5;
-  if (entry.family == "RK4, sensitivities") return 0.2 / std::pow(n, 4);
+  if (entry.family == "common practice" || entry.family == "common practice (tuned)") return 1e-5;
+  if (entry.family == "RK4 with sensitivities") return 0.2 / std::pow(n, 4);
   if (entry.family == "Magnus 4") return 8e-3 / std::pow(n, 4);
   if (entry.family == "Magnus 6") return 4e-4 / std::pow(n, 6);
   if (entry.family == "library") return n;  // its accuracy

@@ -114,7 +114,7 @@ void reportSegments(const std::string& folder, const Effort& effort) {
   CsvFile csv(folder, "segments.csv", "family,variant,segments,start,converged,median_us,p99_us,error_max");
   std::vector<MethodEntry> entries;
   for (const MethodEntry& entry : methodList())
-    if ((entry.family == "library") || (entry.family == "RK4, sensitivities" && entry.resolution == 20) ||
+    if ((entry.family == "library") || (entry.family == "RK4 with sensitivities" && entry.resolution == 20) ||
         (entry.family == "Magnus 6" && entry.resolution == 2) || entry.family == "common practice")
       entries.push_back(entry);
   for (int segments = 1; segments <= 8; ++segments) {

@@ -1,6 +1,7 @@
 #include "benchmark/timing.h"
 
 #include <sys/resource.h>
+#include <time.h>
 
 #include <algorithm>
 #include <chrono>
@@ -10,6 +11,12 @@ namespace live_stiffness {
 
 double clockSeconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+double processorSeconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 long preemptions() {
@@ -36,18 +43,18 @@ MethodSolution TimedMethod::update() {
 }
 
 void TimedMethod::measure(double seconds) {
-  const double start = clockSeconds();
+  const double start = processorSeconds();
   if (batch_ == 0) {
     int count = 0;
-    for (; count < 4 || (count < 1000 && clockSeconds() - start < 1e-3); ++count) update();
-    batch_ = std::clamp(static_cast<int>(std::ceil(kBatchSeconds * count / (clockSeconds() - start))), 1, 64);
+    for (; count < 4 || (count < 1000 && processorSeconds() - start < 1e-3); ++count) update();
+    batch_ = std::clamp(static_cast<int>(std::ceil(kBatchSeconds * count / (processorSeconds() - start))), 1, 128);
   }
   if (batch_ > 1)
-    for (int i = 0; i < 2 * batch_; ++i) update();  // another method had the caches
-  double before = clockSeconds(), after = before;
+    for (int i = 0; i < batch_; ++i) update();  // another method had the caches
+  double before = processorSeconds(), after = before;
   do {
     for (int i = 0; i < batch_; ++i) update();
-    after = clockSeconds();
+    after = processorSeconds();
     samples_us_.push_back(static_cast<float>(1e6 * (after - before) / batch_));
     before = after;
   } while (after - start < seconds);

@@ -30,12 +30,12 @@ std::vector<MethodEntry> methodList() {
   std::vector<MethodEntry> list;
   list.push_back({"textbook", "N=100", 100, maker<Textbook>(100)});
   for (const auto jacobians : {CommonPractice::Jacobians::kFresh, CommonPractice::Jacobians::kReused})
-    list.push_back({jacobians == CommonPractice::Jacobians::kFresh ? "common practice" : "common practice, tuned", "N=50",
+    list.push_back({jacobians == CommonPractice::Jacobians::kFresh ? "common practice" : "common practice (tuned)", "N=50",
                     CommonPractice::kSteps, [=](const Scene& scene) -> std::unique_ptr<StiffnessMethod> {
                       return std::make_unique<CommonPractice>(scene, jacobians);
                     }});
   for (int steps : {10, 20, 50, 100})
-    list.push_back({"RK4, sensitivities", "N=" + std::to_string(steps), double(steps), maker<Rk4Sensitivities>(steps)});
+    list.push_back({"RK4 with sensitivities", "N=" + std::to_string(steps), double(steps), maker<Rk4Sensitivities>(steps)});
   for (int elements : {1, 2, 4, 8, 16})
     list.push_back({"Magnus 4", std::to_string(elements) + " el.", double(elements), maker<Magnus<2>>(elements)});
   for (int elements : {1, 2, 4, 8})

@@ -11,7 +11,7 @@
 namespace live_stiffness {
 
 struct MethodEntry {
-  std::string family;    // one line of a plot: "common practice", "RK4, sensitivities", "library by stages", ...
+  std::string family;    // one line of a plot: "common practice", "RK4 with sensitivities", "library by stages", ...
   std::string variant;   // a point on it: "N=50", "4 elements", "accuracy 1e-6"
   double resolution;     // what the variant varies: steps, elements, stages or accuracy
   std::function<std::unique_ptr<StiffnessMethod>(const Scene&)> make;
