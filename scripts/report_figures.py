@@ -7,6 +7,8 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
+from report_data import largest_error, panel, pareto
+
 plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "live_stiffness", "font.size": 9, "axes.grid": True,
                      "grid.color": "#e6e6e6", "axes.axisbelow": True, "axes.spines.top": False,
                      "axes.spines.right": False, "legend.frameon": False, "font.family": "sans-serif"})
@@ -33,25 +35,6 @@ def families(rows):
     return [(family, members) for family, members in grouped.items() if members]
 
 
-def largest_error(row):
-    return max(row["pose_max"], row["tangent_max"], row["material_max"])
-
-
-def pareto(rows):
-    """Rows that no other beats in both time and error, fastest first."""
-    front, best = [], float("inf")
-    for row in sorted(rows, key=lambda row: (row["median_us"], largest_error(row))):
-        if largest_error(row) < best:
-            front.append(row)
-            best = largest_error(row)
-    return front
-
-
-def panel(rows, segments, gravity, start):
-    return [row for row in rows if (row["segments"], row["gravity"], row["start"]) == (segments, gravity, start) and
-            row["converged"] == 1]
-
-
 def save(figure, folder, name):
     path = os.path.join(folder, name + ".svg")
     figure.savefig(path, bbox_inches="tight", metadata={"Date": None}, facecolor="white")
@@ -76,13 +59,16 @@ def error_against_time(rows, start, folder):
         if front:  # everything up and right of the front is beaten by something
             times, errors = [row["median_us"] for row in front], [largest_error(row) for row in front]
             ax.fill_between(times + [1e6], errors + [errors[-1]], 1e3, step="post", color="#fdf0d5", zorder=0)
-            ax.step(times + [1e6], errors + [errors[-1]], where="post", color="#e0a458", linewidth=1.0, zorder=1,
-                    label="Pareto front: all beyond is beaten")
+            ax.step(times + [1e6], errors + [errors[-1]], where="post", color="#e0a458", linewidth=1.4, zorder=1,
+                    label="Pareto front (shaded: beaten in both)")
         for family, members in families(shown):
             colour, marker, width = STYLE[family]
             members = sorted(members, key=lambda row: row["median_us"])
             ax.plot([row["median_us"] for row in members], [largest_error(row) for row in members], color=colour,
                     marker=marker, linewidth=width, markersize=6, label=family, zorder=4 if "library" in family else 3)
+            for row in members if family in ("library", "library by stages") else []:
+                ax.annotate(row["variant"].replace("accuracy ", ""), (row["median_us"], largest_error(row)), fontsize=7,
+                            color=colour, xytext=(-5, -3), textcoords="offset points", ha="right", va="top")
         ax.set_title("%s, %s" % ("one segment" if segments == 1 else "two segments",
                                  "gravity" if gravity else "nothing external"), fontsize=10)
         ax.set_xscale("log")
@@ -110,7 +96,8 @@ def histogram(bins, summary, folder):
     ax.set_ylim(0.7, 6 * top)
     for key, label in (("median_us", "median"), ("p99_us", "99 %"), ("p999_us", "99.9 %")):
         ax.axvline(summary[key], color="#222222", linewidth=0.8, linestyle="--")
-        ax.text(summary[key], 4.5 * top, " %s\n %.3g us" % (label, summary[key]), va="top", fontsize=8)
+        time = "%.3g" % summary[key] if summary[key] < 1000 else "%.0f" % summary[key]
+        ax.text(summary[key], 4.5 * top, " %s\n %s us" % (label, time), va="top", fontsize=8)
     ax.set_xlabel("time of one update, us")
     ax.set_ylabel("updates")
     save(figure, folder, "update_times")
@@ -154,7 +141,7 @@ def estimates(rows, folder):
     figure, ax = plt.subplots(figsize=(5.6, 4.4), layout="constrained")
     solved = [row for row in rows if row["status"] == "ok" and row["reference_status"] == "ok" and row["loaded"] == 1]
     floor = 1e-16
-    some = solved[::max(1, len(solved) // 1200)]
+    some = solved[::1 + len(solved) // 600]
     ax.plot([row["estimate"] for row in some], [max(row["error"], floor) for row in some], ".", markersize=2.5,
             color="#3a86ff", alpha=0.6)
     line = [1e-14, 1e-2]

@@ -70,14 +70,15 @@ TEST(Methods, ConvergeAtTheOrderOfTheirName) {
     const Scene scene = paperScene(segments);
     const Pressures pressures = pressurePath(segments)[64];
     const StiffnessSolution exact = solveCold(StiffnessModel(scene, accurateTo(1e-12)), pressures);
-    const auto expectOrder = [&](double order, const SolutionErrors& measured) {
+    const auto expectOrder = [&](double order, int coarse, const Solve& solve) {
+      const SolutionErrors measured = orders(solve, coarse, exact, scene.length());
       EXPECT_NEAR(measured.pose, order, kMargin);
       EXPECT_NEAR(measured.tangent, order, kMargin);
       EXPECT_NEAR(measured.material, order, kMargin);
     };
-    expectOrder(4.0, orders([&](int n) { return Rk4Sensitivities(scene, n).solve(pressures); }, 10, exact, scene.length()));
-    expectOrder(4.0, orders([&](int n) { return Magnus<2>(scene, n).solve(pressures); }, 2, exact, scene.length()));
-    expectOrder(6.0, orders([&](int n) { return Magnus<3>(scene, n).solve(pressures); }, 4, exact, scene.length()));
+    expectOrder(4.0, 10, [&](int n) { return Rk4Sensitivities(scene, n).solve(pressures); });
+    expectOrder(4.0, 2, [&](int n) { return Magnus<2>(scene, n).solve(pressures); });
+    expectOrder(6.0, 4, [&](int n) { return Magnus<3>(scene, n).solve(pressures); });
     // Finite differences spoil the tangent, not the shape.
     const SolutionErrors common = orders(
         [&](int n) { return CommonPractice(scene, CommonPractice::Jacobians::kFresh, n).solve(pressures); }, 10, exact,

@@ -16,11 +16,11 @@ Scene hangingChain(int segments) {
   return scene;
 }
 
-std::vector<Pressures> pressurePath(int segments, double scale, bool alternating) {
+std::vector<Pressures> pressurePath(int segments, bool alternating) {
   constexpr int kUpdates = 128;
   std::vector<Pressures> path;
   for (int i = 0; i < kUpdates; ++i) {
-    const double bar = scale * 0.4 * std::pow(1.01, std::min(i, kUpdates - i));
+    const double bar = 0.4 * std::pow(1.01, std::min(i, kUpdates - i));
     Pressures pressures(6 * segments);
     for (int k = 0; k < segments; ++k) {
       const bool other_way = alternating && k % 2 == 1;

@@ -12,9 +12,9 @@ namespace live_stiffness {
 // Segments of paper_one_segment.yaml, hanging, with a link of 6 mm between any two and the paper's tip mass.
 Scene hangingChain(int segments);
 
-// 128 pressures up and down between 0.4 and 0.75 bar (times `scale`) in steps of 1 %, one pair (of each segment) at 60 %
-// of the first; a closed path. alternating: every other segment bends the other way.
-std::vector<Pressures> pressurePath(int segments, double scale = 1.0, bool alternating = false);
+// A closed path of 128 pressures, up and down between 0.4 and 0.75 bar in steps of 1 %, with one pair (of each segment)
+// at 60 % of the first. alternating: every other segment bends the other way.
+std::vector<Pressures> pressurePath(int segments, bool alternating = false);
 
 // Relative errors of a solution against another.
 struct SolutionErrors {

@@ -120,7 +120,7 @@ void reportSegments(const std::string& folder, const Effort& effort) {
   for (int segments = 1; segments <= 8; ++segments) {
     progress("segments: " + std::to_string(segments) + " of 8");
     const Scene scene = hangingChain(segments);
-    const std::vector<Pressures> path = pressurePath(segments, 1.0, true);
+    const std::vector<Pressures> path = pressurePath(segments, true);
     const std::vector<StiffnessSolution> exact = exactSolutions(scene, path);
     for (bool cold : {false, true}) {
       std::vector<TimedMethod> methods;
@@ -190,9 +190,10 @@ void reportEstimates(const std::string& folder, const Effort& effort) {
   });
   CsvFile summary(folder, "estimate_summary.csv",
                   "cases,solved,loaded,out_of_range,not_converged,unstable,status_differs,within_ten_estimates_share,"
-                  "within_requested_share,worst_ratio");
+                  "within_requested_share,worst_ratio,reference");
   summary.row(shares.cases, shares.solved, shares.loaded, shares.of_code[2], shares.of_code[3], shares.of_code[4],
-              shares.status_differs, shares.tenEstimatesShare(), shares.requestedShare(), shares.worst_ratio);
+              shares.status_differs, shares.tenEstimatesShare(), shares.requestedShare(), shares.worst_ratio,
+              EstimateCase::kReference);
 }
 
 void run(const std::string& folder, const Effort& effort) {

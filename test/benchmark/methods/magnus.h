@@ -1,7 +1,8 @@
 #pragma once
 // Lie-group shooting: each element ends with the exponential of its Magnus expansion, of order 4 with two or order 6
 // with three Gauss nodes; rotations and moments at the nodes come from collocation, since the strain depends on them.
-// Expansions: Blanes, Casas, Oteo and Ros, The Magnus expansion and some of its applications, Physics Reports 470, 2009.
+// Expansions: Blanes, Casas, Oteo and Ros, The Magnus expansion and some of its applications, Physics Reports 470
+// (2009).
 
 #include "benchmark/methods/base_moment_shooting.h"
 

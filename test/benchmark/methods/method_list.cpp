@@ -29,13 +29,16 @@ MethodEntry library(const std::string& family, const std::string& variant, doubl
 std::vector<MethodEntry> methodList() {
   std::vector<MethodEntry> list;
   list.push_back({"textbook", "N=100", 100, maker<Textbook>(100)});
-  for (const auto jacobians : {CommonPractice::Jacobians::kFresh, CommonPractice::Jacobians::kReused})
-    list.push_back({jacobians == CommonPractice::Jacobians::kFresh ? "common practice" : "common practice (tuned)", "N=50",
-                    CommonPractice::kSteps, [=](const Scene& scene) -> std::unique_ptr<StiffnessMethod> {
-                      return std::make_unique<CommonPractice>(scene, jacobians);
-                    }});
+  const auto common_practice = [](CommonPractice::Jacobians jacobians) {
+    return [=](const Scene& scene) -> std::unique_ptr<StiffnessMethod> {
+      return std::make_unique<CommonPractice>(scene, jacobians);
+    };
+  };
+  list.push_back({"common practice", "N=50", 50, common_practice(CommonPractice::Jacobians::kFresh)});
+  list.push_back({"common practice (tuned)", "N=50", 50, common_practice(CommonPractice::Jacobians::kReused)});
   for (int steps : {10, 20, 50, 100})
-    list.push_back({"RK4 with sensitivities", "N=" + std::to_string(steps), double(steps), maker<Rk4Sensitivities>(steps)});
+    list.push_back({"RK4 with sensitivities", "N=" + std::to_string(steps), double(steps),
+                    maker<Rk4Sensitivities>(steps)});
   for (int elements : {1, 2, 4, 8, 16})
     list.push_back({"Magnus 4", std::to_string(elements) + " el.", double(elements), maker<Magnus<2>>(elements)});
   for (int elements : {1, 2, 4, 8})

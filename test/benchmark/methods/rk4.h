@@ -1,5 +1,5 @@
 #pragma once
-// The classical Runge-Kutta method on the rod's equations with a rotation matrix as nine numbers, as is common practice.
+// The classical Runge-Kutta method on the rod's equations, the rotation matrix as nine numbers: common practice.
 
 #include "benchmark/methods/loaded_chain.h"
 
