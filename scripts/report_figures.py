@@ -1,5 +1,6 @@
 """Figures of docs/speed_against_error.md, from the CSV files of speed_report and drift_report."""
 import collections
+import math
 import os
 
 import matplotlib
@@ -51,6 +52,23 @@ def legend_above(figure, axes, columns):
                   ncol=columns, columnspacing=1.4, handletextpad=0.5)
 
 
+def label_points(ax, members, colour):
+    """Accuracy or stages beside each point; points that lie on one another share a label."""
+    spots = []
+    for row in members:
+        text = row["variant"].replace("accuracy ", "").replace("e-0", "e-")
+        time, error = row["median_us"], largest_error(row)
+        for spot in spots:
+            if abs(math.log(time / spot[0])) < 0.5 and abs(math.log(error / spot[1])) < 3.0:
+                spot[2].append(text)
+                break
+        else:
+            spots.append((time, error, [text]))
+    for time, error, texts in spots:
+        ax.annotate(", ".join(texts), (time, error), fontsize=7, color=colour, xytext=(-5, -3),
+                    textcoords="offset points", ha="right", va="top")
+
+
 def error_against_time(rows, start, folder):
     figure, grid = plt.subplots(2, 2, figsize=(9.2, 7.2), sharex=True, sharey=True, layout="constrained")
     for ax, (segments, gravity) in zip(grid.flat, [(1, 1), (2, 1), (1, 0), (2, 0)]):
@@ -66,17 +84,16 @@ def error_against_time(rows, start, folder):
             members = sorted(members, key=lambda row: row["median_us"])
             ax.plot([row["median_us"] for row in members], [largest_error(row) for row in members], color=colour,
                     marker=marker, linewidth=width, markersize=6, label=family, zorder=4 if "library" in family else 3)
-            for row in members if family in ("library", "library by stages") else []:
-                ax.annotate(row["variant"].replace("accuracy ", ""), (row["median_us"], largest_error(row)), fontsize=7,
-                            color=colour, xytext=(-5, -3), textcoords="offset points", ha="right", va="top")
+            if family in ("library", "library by stages"):
+                label_points(ax, members, colour)
         ax.set_title("%s, %s" % ("one segment" if segments == 1 else "two segments",
                                  "gravity" if gravity else "nothing external"), fontsize=10)
         ax.set_xscale("log")
         ax.set_yscale("log")
     low = min(row["median_us"] for row in rows)
     high = max(row["median_us"] for row in rows)
-    grid[0, 0].set_xlim(low / 1.6, high * 1.6)
-    grid[0, 0].set_ylim(3e-15, 3e-2)
+    grid[0, 0].set_xlim(low / 3.0, high * 1.6)
+    grid[0, 0].set_ylim(1e-15, 3e-2)
     for ax in grid[1]:
         ax.set_xlabel("time of an update, us (median, %s)" % start)
     for ax in grid[:, 0]:
