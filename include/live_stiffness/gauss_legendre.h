@@ -1,21 +1,28 @@
 #pragma once
-// Gauss-Legendre nodes on [0, 1], for quadrature and for collocation.
-
-#include <array>
+// Gauss-Legendre nodes on [0, 1], for quadrature and for collocation. Plain data, so that code compiled for another
+// instruction set may read it.
 
 namespace live_stiffness {
 
-constexpr int kStages = 6;  // quadrature exact to degree 11, collocation of order 12
+constexpr int kMaxNodes = 12;
+typedef double NodeRow[kMaxNodes] __attribute__((aligned(32)));  // one value per node, the rest zero
 
-// c: nodes; b: weights, sum 1; a: a[i][j] integrates over [0, c_i] (the Runge-Kutta matrix of the Gauss method);
-// top: sum_i top[i] f(c_i) is the Legendre coefficient of f of the highest degree that kStages nodes can see;
-// below_top: that of one degree less.
+// For n nodes: quadrature is exact to degree 2 n - 1, collocation has order 2 n.
 struct GaussLegendre {
-  std::array<double, kStages> c, b, top, below_top;
-  std::array<std::array<double, kStages>, kStages> a;
+  NodeRow c;                    // nodes; c[n] = 1 is the end
+  NodeRow b;                    // weights, sum 1
+  NodeRow a[kMaxNodes];         // a[j][i] integrates over [0, c_i]: transposed Runge-Kutta matrix of Gauss; a[j][n] = b_j
+  NodeRow legendre[kMaxNodes];  // sum_j legendre[k][j] f(c_j): coefficient of f at P_k(2 x - 1), k < n
+  int nodes;
 };
 
-// The one table, computed at first use.
-const GaussLegendre& gaussLegendre();
+// The table for 1 to kMaxNodes nodes, computed at first use in extended precision.
+const GaussLegendre& gaussLegendre(int nodes);
+
+// result[j][i] integrates the polynomial through values at the nodes c_j of `from` over [0, c_i of `to`].
+struct NodeTransfer {
+  NodeRow integral[kMaxNodes];
+};
+NodeTransfer makeTransfer(int from, int to);
 
 }  // namespace live_stiffness

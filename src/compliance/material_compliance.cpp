@@ -3,54 +3,87 @@
 #include <algorithm>
 
 namespace live_stiffness {
+namespace {
 
-Matrix6 elementCompliance(const RestState& rest, const RodElement& element, const Vector3& p_B) {
-  // With r from the point to the section and S = R c_se R^T, B = R c_bt R^T, (3) about the point is
-  // [S + r^ B r^T^, r^ B; B r^T^, B].
-  Matrix6 C = Matrix6::Zero();
-  for (int i = 0; i < kStages; ++i) {
-    const Matrix3& R = element.X[i].R;
-    const Matrix3 r_hat = hat(element.X[i].p - p_B);
-    const Matrix3 B = R * (element.weight(i) * rest.c.bending_torsion) * R.transpose();
-    const Matrix3 r_hat_B = r_hat * B;
-    C.topLeftCorner<3, 3>() += R * (element.weight(i) * rest.c.shear_elongation) * R.transpose() -
-                               r_hat_B * r_hat;
-    C.topRightCorner<3, 3>() += r_hat_B;
-    C.bottomRightCorner<3, 3>() += B;
+// Which of the 21 numbers is entry (row, column).
+constexpr int kPackedIndex[6][6] = {{0, 1, 2, 6, 7, 8},    {1, 3, 4, 9, 10, 11},   {2, 4, 5, 12, 13, 14},
+                                    {6, 9, 12, 15, 16, 17}, {7, 10, 13, 16, 18, 19}, {8, 11, 14, 17, 19, 20}};
+
+// The 21 numbers of element_state.h as a matrix.
+struct Packed {
+  double at[kPackedSize] = {};
+
+  Matrix6 matrix() const {
+    Matrix6 C;
+    for (int j = 0; j < 6; ++j)
+      for (int i = 0; i < 6; ++i) C(i, j) = at[kPackedIndex[i][j]];
+    return C;
   }
-  C.bottomLeftCorner<3, 3>() = C.topRightCorner<3, 3>().transpose();
-  return C;
+
+  // About the point o becomes about o + d: H C H^T with H = [I, -hat(d); 0, I].
+  void shift(const Vector3& d) {
+    if (d.isZero(0.0)) return;
+    const Matrix6 C = matrix();
+    const auto K = C.topRightCorner<3, 3>();
+    Matrix3 K_new, P = C.topLeftCorner<3, 3>();
+    for (int i = 0; i < 3; ++i) {
+      K_new.col(i) = K.col(i) - d.cross(C.bottomRightCorner<3, 3>().col(i));
+      P.col(i) -= d.cross(K.row(i).transpose());
+    }
+    for (int i = 0; i < 3; ++i) P.row(i) -= d.cross(K_new.row(i).transpose()).transpose();  // + K_new hat(d)
+    const double out[] = {P(0, 0), P(0, 1), P(0, 2), P(1, 1), P(1, 2), P(2, 2)};
+    std::copy_n(out, 6, at);
+    for (int i = 0; i < 9; ++i) at[6 + i] = K_new(i / 3, i % 3);
+  }
+};
+
+void unpackLane(const RodElement& element, double stretch, const StationBatch& batch, int lane, Station& station) {
+  station.stretch = stretch;
+  for (int j = 0; j < 3; ++j) {
+    for (int i = 0; i < 3; ++i) station.X_BS.R(i, j) = batch.R[3 * i + j][lane];
+    station.X_BS.p[j] = element.p_start[j] + batch.offset[j][lane];
+  }
+  for (int j = 0; j < 6; ++j)
+    for (int i = 0; i < 6; ++i) station.compliance(i, j) = batch.compliance[kPackedIndex[i][j]][lane];
 }
 
-Matrix6 tipMaterialCompliance(const Backbone& backbone) {
-  Matrix6 C = Matrix6::Zero();
-  for (const RodElement& element : backbone.elements)
-    C += elementCompliance(backbone.rest[element.segment], element, backbone.X_BT.p);
-  return C;
+}  // namespace
+
+Matrix6 accumulateMaterial(Backbone& backbone) {
+  Packed total;
+  Vector3 about = Vector3::Zero();
+  for (RodElement& element : backbone.elements) {
+    backbone.passes->material(element.state);
+    total.shift(element.p_start - about);
+    std::copy_n(total.at, kPackedSize, element.start_compliance);
+    for (int i = 0; i < kPackedSize; ++i) total.at[i] += element.state.compliance[i];
+    about = element.p_start;
+  }
+  total.shift(backbone.X_BT.p - about);
+  return total.matrix();
 }
 
-Station stationAt(const Backbone& backbone, int segment, double fraction, bool loaded) {
-  const RestState& rest = backbone.rest[segment];
-  const int first = backbone.firstElement(segment);
-  const double along = std::clamp(fraction, 0.0, 1.0) * backbone.element_count[segment];
-  const int whole = std::min(static_cast<int>(along), backbone.element_count[segment] - 1);
-  const RodElement& element = backbone.elements[first + whole];
-  const double part = along - whole;
-
-  Station station;
-  station.stretch = rest.stretch;
-  if (part > 0.0) {
-    const RodElement piece = part < 1.0 ? pieceOf(rest, element, part * element.length, loaded) : element;
-    station.X_BS = piece.X_end;
-    station.compliance = elementCompliance(rest, piece, station.X_BS.p);
-  } else {
-    station.X_BS = element.X_start;
+void stationsAt(const Backbone& backbone, int segment, const std::vector<double>& fractions, std::vector<Station>& out) {
+  const int first = backbone.firstElement(segment), count = backbone.element_count[segment];
+  out.resize(fractions.size());
+  const auto along = [&](size_t i) { return std::clamp(fractions[i], 0.0, 1.0) * count; };
+  const auto elementOf = [&](size_t i) { return std::min(static_cast<int>(along(i)), count - 1); };
+  for (size_t i = 0; i < fractions.size();) {
+    const int k = elementOf(i);
+    const RodElement& element = backbone.elements[first + k];
+    StationBatch batch;
+    std::copy_n(element.start_compliance, kPackedSize, batch.start_compliance);
+    int filled = 0;
+    while (filled < kStationBatch && i + filled < fractions.size() && elementOf(i + filled) == k) {
+      batch.fraction[filled] = along(i + filled) - k;
+      ++filled;
+    }
+    std::fill(batch.fraction + filled, batch.fraction + kStationBatch, 0.0);
+    backbone.passes->stations(element.state, batch);
+    for (int lane = 0; lane < filled; ++lane)
+      unpackLane(element, backbone.rest[segment].stretch, batch, lane, out[i + lane]);
+    i += filled;
   }
-  for (int k = 0; k < first + whole; ++k) {
-    const RodElement& before = backbone.elements[k];
-    station.compliance += elementCompliance(backbone.rest[before.segment], before, station.X_BS.p);
-  }
-  return station;
 }
 
 }  // namespace live_stiffness

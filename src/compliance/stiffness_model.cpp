@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "live_stiffness/checks.h"
-#include "live_stiffness/rod/kinematics.h"
 
 namespace live_stiffness {
 
@@ -19,12 +18,15 @@ const char* codeName(SolveCode code) {
   return "unknown";
 }
 
-StiffnessModel::StiffnessModel(Scene scene, ModelOptions options) : scene_(std::move(scene)), options_(options) {
+StiffnessModel::StiffnessModel(Scene scene, ModelOptions options) : scene_(std::move(scene)), options_(options), has_weight_(scene_.hasWeight()) {
   FaultList faults("stiffness model");
   if (scene_.segmentCount() == 0) faults.add("chain: must hold at least one segment");
   faults.check("pressure_step_pa", options_.pressure_step, {100.0, 1e7});
   faults.check("accuracy", options_.accuracy, {1e-13, 1e-2});
+  if (options_.stages != 0) faults.check("stages", options_.stages, {kMinStages, kMaxStages});
   faults.throwIfAny();
+  for (const Body& body : scene_.chain)
+    if (const auto* segment = std::get_if<Segment>(&body)) steppers_.emplace_back(segment->section);
 }
 
 SolveStatus StiffnessModel::checkInput(PressuresRef pressures, const Wrench& tip_wrench) const {
@@ -42,17 +44,14 @@ SolveStatus StiffnessModel::stepLoads(PressuresRef pressures, Backbone& backbone
   if (options_.stepping == Stepping::kFixedStep && largest > 1e4 * options_.pressure_step) return {SolveCode::kOutOfRange, -1, largest};
   const int steps = stepCount(largest, options_.pressure_step);
   SolveStatus status;
-  int first = 0;
-  walk(
-      scene_,
-      [&](int index, const Segment& segment) {
-        const int count = segment.section.chambers.count();
-        backbone.rest[index] = restState(segment.section, pressures.segment(first, count), options_.stepping, steps);
-        if (!backbone.rest[index].valid && status.ok())
-          status = {SolveCode::kOutOfRange, index, backbone.rest[index].stretch};
-        first += count;
-      },
-      [](const Link&) {});
+  Eigen::Index first = 0;
+  for (size_t k = 0; k < steppers_.size(); ++k) {
+    RestState& rest = backbone.rest[k];
+    const Eigen::Index count = steppers_[k].chamberCount();
+    rest = steppers_[k].restState(pressures.segment(first, count), options_.stepping, steps);
+    if (!rest.valid && status.ok()) status = {SolveCode::kOutOfRange, static_cast<int>(k), rest.stretch};
+    first += count;
+  }
   return status;
 }
 
@@ -65,7 +64,7 @@ StiffnessSolution StiffnessModel::solve(PressuresRef pressures, const Wrench& ti
   solution.status = stepLoads(pressures, backbone);
   if (!solution.status.ok()) return solution;
 
-  workspace.loaded_ = options_.external_loads && (scene_.hasWeight() || !tip_wrench.isZero(0.0));
+  workspace.loaded_ = options_.external_loads && (has_weight_ || !tip_wrench.isZero(0.0));
   if (workspace.loaded_) {
     ++workspace.statics_solves_;
     const DeadLoads loads{scene_.gravity.value_or(Vector3::Zero()), tip_wrench};
@@ -79,15 +78,13 @@ StiffnessSolution StiffnessModel::solve(PressuresRef pressures, const Wrench& ti
       solution.status = {SolveCode::kUnstable, -1, 0.0};
       return solution;
     }
-    solution.numerical_error = report.truncation + report.residual;
+    solution.numerical_error = report.truncation + report.residual + report.iteration;
   } else {
-    workspace.statics_.reset();
-    chooseUnloadedElements(scene_, backbone);
-    placeUnloaded(scene_, backbone);
+    workspace.statics_.placeUnloaded(backbone);
   }
   solution.numerical_error += 1e-14;  // rounding
   solution.X_BT = backbone.X_BT;
-  solution.material_compliance = tipMaterialCompliance(backbone);
+  solution.material_compliance = accumulateMaterial(backbone);
   // Without external load the two are the same matrix.
   solution.compliance = workspace.loaded_ ? workspace.statics_.tangentCompliance() : solution.material_compliance;
   if (!solution.X_BT.p.allFinite() || !solution.compliance.allFinite() || !solution.material_compliance.allFinite())
@@ -96,7 +93,14 @@ StiffnessSolution StiffnessModel::solve(PressuresRef pressures, const Wrench& ti
 }
 
 Station StiffnessModel::station(const StiffnessWorkspace& workspace, int segment, double fraction) const {
-  return stationAt(workspace.backbone(), segment, fraction, workspace.loaded());
+  std::vector<Station> one;
+  stations(workspace, segment, {fraction}, one);
+  return one[0];
+}
+
+void StiffnessModel::stations(const StiffnessWorkspace& workspace, int segment, const std::vector<double>& fractions,
+                              std::vector<Station>& out) const {
+  stationsAt(workspace.backbone(), segment, fractions, out);
 }
 
 std::string StiffnessModel::describe(const SolveStatus& status) const {

@@ -2,11 +2,12 @@
 
 namespace live_stiffness {
 
-Pose expSe3(const Vector3& v, const Vector3& u, double s) {
+Pose expSe3(const Vector3& v, const Vector3& u, double s, double series_below) {
   const Vector3 w = s * u;
   const double x = w.squaredNorm();
   const Vector3 w_cross_v = w.cross(v);
-  return {expSo3(w), s * (v + angleB(x) * w_cross_v + angleC(x) * w.cross(w_cross_v))};
+  return {expSo3(w, series_below),
+          s * (v + angleB(x, series_below) * w_cross_v + angleC(x, series_below) * w.cross(w_cross_v))};
 }
 
 Matrix6 wrenchAdjoint(const Pose& X_AB) {

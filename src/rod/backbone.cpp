@@ -1,40 +1,38 @@
 #include "live_stiffness/rod/backbone.h"
 
+#include <numeric>
+
 namespace live_stiffness {
 
-Backbone::Backbone(const Scene& scene)
-    : rest(scene.segmentCount()), element_count(scene.segmentCount(), 1) {
+Backbone::Backbone(const Scene& scene, Simd simd)
+    : passes(&elementPasses(kMaxStages, simd)),
+      rest(scene.segmentCount()),
+      element_count(scene.segmentCount(), 1),
+      simd_(simd) {
   elements.reserve(static_cast<size_t>(scene.segmentCount()) * kMaxElements);
 }
 
 int Backbone::firstElement(int segment) const {
-  int first = 0;
-  for (int k = 0; k < segment; ++k) first += element_count[k];
-  return first;
+  return std::accumulate(element_count.begin(), element_count.begin() + segment, 0);
 }
 
-double Backbone::length(const Scene& scene, int segment) const {
-  double result = 0.0;
-  walk(
-      scene,
-      [&](int index, const Segment& body) {
-        if (index == segment) result = rest[index].stretch * body.length;
-      },
-      [](const Link&) {});
-  return result;
-}
-
-RodElement pieceOf(const RestState& rest, const RodElement& element, double length, bool loaded) {
-  RodElement piece = element;
-  const double ratio = length / element.length;
-  piece.length = length;
-  if (!loaded) {
-    placeUnloaded(rest, piece);
-  } else {
-    piece.rotation *= ratio;
-    integrate(rest, piece);  // shorter than a converged element, so it converges
+bool Backbone::resize(int stages) {
+  const size_t count = std::accumulate(element_count.begin(), element_count.end(), size_t{0});
+  bool changed = count != elements.size() || stages != passes->stages;
+  if (!changed) {
+    // The same number in all may still be shared out differently.
+    size_t next = 0;
+    for (size_t segment = 0; segment < element_count.size(); ++segment)
+      for (int k = 0; k < element_count[segment]; ++k)
+        changed = changed || elements[next++].segment != static_cast<int>(segment);
   }
-  return piece;
+  if (!changed) return false;
+  elements.resize(count);
+  size_t next = 0;
+  for (size_t segment = 0; segment < element_count.size(); ++segment)
+    for (int k = 0; k < element_count[segment]; ++k) elements[next++].segment = static_cast<int>(segment);
+  passes = &elementPasses(stages, simd_);
+  return true;
 }
 
 }  // namespace live_stiffness

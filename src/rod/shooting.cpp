@@ -1,91 +1,115 @@
 #include "live_stiffness/rod/shooting.h"
 
 #include <Eigen/Geometry>
-#include <iterator>
+#include <algorithm>
+#include <limits>
 
 namespace live_stiffness {
 
-Vector3 baseForce(const Scene& scene, const DeadLoads& loads) {
-  double mass = scene.tip_mass;
-  walk(
-      scene, [&](int, const Segment& segment) { mass += segment.mass(); },
-      [&](const Link& link) { mass += link.mass; });
-  return linear(loads.tip) + mass * loads.gravity;
+void prepare(const Chain& chain, const DeadLoads& loads, Backbone& backbone) {
+  const GaussLegendre& table = gaussLegendre(backbone.passes->stages);
+  auto element = backbone.elements.begin();
+  for (const Chain::Part& part : chain.parts) {
+    if (part.segment < 0) continue;
+    const RestState& rest = backbone.rest[part.segment];
+    const int count = backbone.element_count[part.segment];
+    const double length = rest.stretch * part.length;
+    for (int k = 0; k < count; ++k, ++element) {
+      const Vector3 turn_before = element->state.length * Vector3(element->state.rest_curvature);
+      element->state.length = length / count;
+      element->start = k * element->state.length;
+      element->setSection(rest);
+      const Vector3 turn = element->state.length * rest.curvature - turn_before;
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j <= kMaxStages; ++j) element->state.g[i][j] += turn[i] * table.c[j];
+      element->setLoads(part.mass / length * loads.gravity);
+    }
+  }
 }
 
-Vector3 lineLoad(const Segment& segment, const RestState& rest, const DeadLoads& loads) {
-  return segment.section.linearDensity() / rest.stretch * loads.gravity;
-}
-
-bool shoot(const Scene& scene, const DeadLoads& loads, const Vector3& base_moment, bool nodes_hold_guess,
-           Backbone& backbone, Vector3& residual) {
+Sweep sweep(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, bool finish, Backbone& backbone) {
+  Sweep result;
+  result.sound = true;
+  const auto run = finish ? backbone.passes->finish : backbone.passes->pass;
+  const double largest_size = largestSize(backbone.passes->stages);
   Pose X;
-  Vector3 n = baseForce(scene, loads);
+  Vector3 n = loads.baseForce(chain);
   Vector3 m = base_moment;
   auto element = backbone.elements.begin();
-  bool converged = true;
-  walk(
-      scene,
-      [&](int index, const Segment& segment) {
-        const RestState& rest = backbone.rest[index];
-        const Vector3 line_load = lineLoad(segment, rest, loads);
-        const int count = backbone.element_count[index];
-        for (int k = 0; k < count && converged; ++k, ++element) {
-          element->segment = index;
-          element->length = rest.stretch * segment.length / count;
-          element->start = k * element->length;
-          element->X_start = X;
-          element->n_start = n;
-          element->m_start = m;
-          element->line_load = line_load;
-          if (!nodes_hold_guess) resetGuess(rest, *element);
-          converged = integrate(rest, *element);
-          X = element->X_end;
-          n = element->n_end;
-          m = element->m_end;
-        }
-      },
-      [&](const Link& link) {
-        const Vector3 along = link.length * X.R.col(2);
-        const Vector3 weight = link.mass * loads.gravity;
-        n -= weight;
-        m -= along.cross(n) + 0.5 * along.cross(weight);
-        X.p += along;
-      });
-  if (!converged) return false;
-  const Vector3 offset = X.R * scene.tip_offset;
+  for (const Chain::Part& part : chain.parts) {
+    if (part.segment < 0) {
+      const Vector3 along = part.length * X.R.col(2);
+      const Vector3 weight = part.mass * loads.gravity;
+      n -= weight;
+      m -= along.cross(n) + 0.5 * along.cross(weight);
+      X.p += along;
+      continue;
+    }
+    for (int k = 0; k < backbone.element_count[part.segment]; ++k, ++element) {
+      element->setStart(X, n, m);
+      run(element->state);
+      X = element->X_end();
+      n = element->n_end();
+      m = element->m_end();
+      result.change = std::max(result.change, element->state.change);
+      result.sound = result.sound && element->state.size <= largest_size;
+    }
+  }
+  const Vector3 offset = X.R * chain.tip_offset;
   backbone.X_BT = {X.R, X.p + offset};
-  residual = m - offset.cross(n) - angular(loads.tip);
-  return residual.allFinite();
+  result.residual = m - offset.cross(n) - angular(loads.tip);
+  result.sound = result.sound && result.residual.allFinite();
+  return result;
 }
 
-StateColumns tipColumns(const Scene& scene, const DeadLoads& loads, const Backbone& backbone) {
-  StateColumns columns;
-  columns.m.leftCols<3>().setIdentity();
-  columns.n.rightCols<3>().setIdentity();
-  auto element = backbone.elements.begin();
+bool shoot(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, Backbone& backbone,
+           Vector3& residual) {
+  constexpr int kMaxSweeps = 100;
+  constexpr double kConverged = 4e-15;  // rad
+  double last_change = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kMaxSweeps; ++i) {
+    const Sweep s = sweep(chain, loads, base_moment, true, backbone);
+    residual = s.residual;
+    if (!s.sound) return false;
+    // Rounding can leave a last-digit wobble just above the bound: stop there once it no longer shrinks.
+    if (s.change <= kConverged || (s.change <= 20.0 * kConverged && s.change >= last_change)) return true;
+    last_change = s.change;
+  }
+  return false;
+}
+
+double tipColumns(const Chain& chain, const DeadLoads& loads, bool fresh, double goal, Backbone& backbone,
+                  ElementColumns& columns) {
+  columns = {};
+  columnsOf(columns.m).leftCols<3>().setIdentity();
+  double change = 0.0;
   const auto along_rigid = [&](const Vector3& along, const Vector3& n) {
-    const Matrix3X6 moved = -hat(along) * columns.phi;  // phi x along
-    columns.p += moved;
-    columns.m += hat(n) * moved - hat(along) * columns.n;
+    const Matrix3X6 moved = -hat(along) * columnsOf(columns.phi);  // phi x along
+    columnsOf(columns.p) += moved;
+    columnsOf(columns.m) += hat(n) * moved;
+    columnsOf(columns.m).rightCols<3>() -= hat(along);
   };
   Matrix3 R = Matrix3::Identity();
-  Vector3 n = baseForce(scene, loads);
-  walk(
-      scene,
-      [&](int index, const Segment&) {
-        for (int k = 0; k < backbone.element_count[index]; ++k, ++element)
-          propagate(backbone.rest[index], *element, columns);
-        R = std::prev(element)->X_end.R;
-        n = std::prev(element)->n_end;
-      },
-      [&](const Link& link) {
-        const Vector3 weight = link.mass * loads.gravity;
-        n -= weight;
-        along_rigid(link.length * R.col(2), n + 0.5 * weight);  // the weight has half the lever
-      });
-  along_rigid(R * scene.tip_offset, n);
-  return columns;
+  Vector3 n = loads.baseForce(chain);
+  auto element = backbone.elements.begin();
+  for (const Chain::Part& part : chain.parts) {
+    if (part.segment < 0) {
+      const Vector3 weight = part.mass * loads.gravity;
+      n -= weight;
+      along_rigid(part.length * R.col(2), n + 0.5 * weight);  // the weight has half the lever
+      continue;
+    }
+    for (int k = 0; k < backbone.element_count[part.segment]; ++k, ++element) {
+      const ElementColumns start = columns;
+      if (fresh) resetColumns(start, element->state);
+      change = std::max(change, propagate(*backbone.passes, *element, start, goal, columns));
+    }
+    const RodElement& last = *std::prev(element);
+    R = last.X_end().R;
+    n = last.n_end();
+  }
+  if (!chain.tip_offset.isZero(0.0)) along_rigid(R * chain.tip_offset, n);
+  return change;
 }
 
 }  // namespace live_stiffness

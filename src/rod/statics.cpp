@@ -1,13 +1,11 @@
 #include "live_stiffness/rod/statics.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "live_stiffness/rod/kinematics.h"
 
@@ -17,26 +15,61 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kResidualGoal = 1e-12;     // rad, see StaticsReport::residual
 constexpr double kResidualAccepted = 1e-9;  // rad, when rounding stops it short of the goal
+constexpr double kRoughColumns = 1e-2;      // relative change, enough for Newton steps
 
 }  // namespace
 
-StaticsSolver::StaticsSolver(const Scene& scene, double accuracy) : scene_(scene), accuracy_(accuracy) {}
+StaticsSolver::StaticsSolver(const Scene& scene, double accuracy, int stages)
+    : chain_(scene), accuracy_(accuracy), discretisation_(chain_, accuracy, stages) {}
 
 bool StaticsSolver::march(const DeadLoads& loads, const Vector3& base_moment, Backbone& backbone, Vector3& residual) {
-  nodes_hold_guess_ = shoot(scene_, loads, base_moment, nodes_hold_guess_, backbone, residual);
-  return nodes_hold_guess_;
+  if (shoot(chain_, loads, base_moment, backbone, residual)) return true;
+  resetGuesses(loads, backbone);
+  return false;
 }
 
-double StaticsSolver::bendingOf(const Vector3& moment, const Backbone& backbone) const {
-  double softest = 0.0;
-  walk(
-      scene_,
-      [&](int index, const Segment& segment) {
-        const RestState& rest = backbone.rest[index];
-        softest = std::max(softest, rest.c.bending_torsion.diagonal().maxCoeff() * rest.stretch * segment.length);
-      },
-      [](const Link&) {});
-  return softest * moment.norm();
+bool StaticsSolver::updateInverse(const DeadLoads& loads, double goal, Backbone& backbone) {
+  ElementColumns columns;
+  const double change = tipColumns(chain_, loads, !has_columns_, goal, backbone, columns);
+  has_columns_ = std::isfinite(change);
+  residual_inverse_ = columnsOf(columns.m).leftCols<3>().inverse();
+  return has_columns_ && residual_inverse_.allFinite();
+}
+
+// Sweeps of one pass an element, each followed by a step of the base moment with the kept inverse: shape and moment
+// converge together, linearly, by a factor of about ten a sweep. Without trouble it takes three to ten.
+bool StaticsSolver::quick(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
+  constexpr int kMaxSweeps = 40, kSweepsBeforeInverse = 2;
+  const double goal = std::max(0.05 * accuracy_, 4e-15);
+  bool has_inverse = warm_;
+  if (!has_inverse) residual_inverse_.setIdentity();  // right but for the load's own effect
+  double last = kInfinity, expected = kInfinity;
+  int growing = 0;
+  for (int i = 0; i < kMaxSweeps; ++i) {
+    const bool make_inverse = !has_inverse && i >= kSweepsBeforeInverse;
+    const bool finish = expected <= goal || make_inverse;
+    ++report.iterations;
+    const Sweep s = sweep(chain_, loads, base_moment_, finish, backbone);
+    report.residual = bendingOf(s.residual);
+    const double error = std::max(s.change, report.residual);
+    if (!s.sound || (growing += error > last) > 3) return false;
+    expected = error * (i == 0 ? 0.1 : std::min(0.2, error / last));
+    report.iteration = expected;
+    if (finish && error <= goal && has_inverse) return true;
+    // Rounding stops it short of the finest goals.
+    if (error <= 1e-13 && error > 0.3 * last) expected = 0.0;
+    if (finish && has_inverse && error <= 1e-13 && error >= 0.5 * last) return true;
+    last = error;
+    if (make_inverse) {
+      has_inverse = updateInverse(loads, kRoughColumns, backbone);
+      if (!has_inverse) return false;
+    }
+    const Vector3 step = -residual_inverse_ * s.residual;
+    base_moment_ += step;
+    if (has_inverse)
+      for (RodElement& element : backbone.elements) backbone.passes->follow(element.state, {step.x(), step.y(), step.z()});
+  }
+  return false;
 }
 
 bool StaticsSolver::newton(const DeadLoads& loads, Backbone& backbone, int max_iterations, StaticsReport& report) {
@@ -45,15 +78,15 @@ bool StaticsSolver::newton(const DeadLoads& loads, Backbone& backbone, int max_i
   double accepted = kInfinity, damping = 1.0;
   bool have_inverse = warm_, inverse_is_fresh = false;
   const auto refresh = [&] {
-    residual_inverse_ = tipColumns(scene_, loads, backbone).m.leftCols<3>().inverse();
-    have_inverse = inverse_is_fresh = true;
+    have_inverse = inverse_is_fresh = updateInverse(loads, kRoughColumns, backbone);
   };
   for (int i = 0; i < max_iterations && report.iterations < kMaxIterations; ++i) {
     ++report.iterations;
     const bool marched = march(loads, m0, backbone, residual);
-    report.residual = marched ? bendingOf(residual, backbone) : kInfinity;
+    report.residual = marched ? bendingOf(residual) : kInfinity;
     const bool stalled = report.residual <= kResidualAccepted && report.residual >= 0.5 * accepted && inverse_is_fresh;
     if (report.residual <= kResidualGoal || stalled) {
+      report.iteration = 0.0;  // every shot has converged
       base_moment_ = m0;
       return true;
     }
@@ -108,6 +141,7 @@ bool StaticsSolver::continuation(const DeadLoads& loads, Backbone& backbone, Sta
       base_moment_ += weight * moments[i];
     }
     warm_ = false;
+    prepare(chain_, loads.scaled(trial), backbone);
     if (newton(loads.scaled(trial), backbone, 12, report)) {
       for (int i = 2; i > 0; --i) {
         reached[i] = reached[i - 1];
@@ -119,70 +153,47 @@ bool StaticsSolver::continuation(const DeadLoads& loads, Backbone& backbone, Sta
       advance *= 1.5;
     } else {
       advance *= 0.5;
-      nodes_hold_guess_ = false;
+      resetGuesses(loads.scaled(trial), backbone);
     }
     if (advance < 1e-3 || report.iterations >= kMaxIterations) return false;
   }
   return true;
 }
 
+void StaticsSolver::resetGuesses(const DeadLoads& loads, Backbone& backbone) {
+  live_stiffness::placeUnloaded(chain_, backbone);
+  prepare(chain_, loads, backbone);
+  warm_ = has_columns_ = false;
+}
+
 // The unloaded shape, and the base moment that the loads would exert on it.
 void StaticsSolver::placeFresh(const DeadLoads& loads, Backbone& backbone) {
-  placeUnloaded(scene_, backbone);
-  nodes_hold_guess_ = true;
-  warm_ = false;
-  base_moment_ = angular(loads.tip) + backbone.X_BT.p.cross(linear(loads.tip) + scene_.tip_mass * loads.gravity);
+  resetGuesses(loads, backbone);
+  base_moment_ = angular(loads.tip) + backbone.X_BT.p.cross(linear(loads.tip) + chain_.tip_mass * loads.gravity);
+  const GaussLegendre& table = gaussLegendre(backbone.passes->stages);
   auto element = backbone.elements.begin();
   Pose X;
-  walk(
-      scene_,
-      [&](int index, const Segment& segment) {
-        const Vector3 line_load = lineLoad(segment, backbone.rest[index], loads);
-        for (int k = 0; k < backbone.element_count[index]; ++k, ++element)
-          for (int i = 0; i < kStages; ++i) base_moment_ += element->weight(i) * element->X[i].p.cross(line_load);
-        X = std::prev(element)->X_end;
-      },
-      [&](const Link& link) {
-        base_moment_ += (X.p + 0.5 * link.length * X.R.col(2)).cross(link.mass * loads.gravity);
-        X.p += link.length * X.R.col(2);
-      });
-}
-
-// Elements by bending at rest and by the load number L sqrt(|n| c_bt): about what one element of order 12 carries.
-void StaticsSolver::chooseElements(const DeadLoads& loads, Backbone& backbone) const {
-  const double bending_an_element = 1.2 * std::pow(accuracy_ / 1e-9, 1.0 / (2 * kStages));
-  const double load_number_an_element = 0.8 * bending_an_element;
-  const double force = baseForce(scene_, loads).norm();
-  const double moment = angular(loads.tip).norm();
-  walk(
-      scene_,
-      [&](int index, const Segment& segment) {
-        const RestState& rest = backbone.rest[index];
-        const double length = rest.stretch * segment.length;
-        const double softness = rest.c.bending_torsion.diagonal().maxCoeff();
-        const double bending = length * (rest.curvature.norm() + softness * moment) / bending_an_element;
-        const double load = length * std::sqrt(softness * force) / load_number_an_element;
-        const double count = std::ceil(std::max(bending, load));
-        backbone.element_count[index] = static_cast<int>(std::clamp(count, 1.0, Backbone::kMaxElements / 2.0));
-      },
-      [](const Link&) {});
-}
-
-// Doubles the elements of every segment whose estimated error is above its share. False when there is none to double.
-bool StaticsSolver::refine(Backbone& backbone, StaticsReport& report) const {
-  report.truncation = 0.0;
-  bool refined = false;
-  auto element = backbone.elements.begin();
-  for (int& count : backbone.element_count) {
-    double error = 0.0;
-    for (int k = 0; k < count; ++k, ++element) error += 4.0 * element->truncation * element->truncation;
-    report.truncation += error;
-    if (error > accuracy_ && 2 * count <= Backbone::kMaxElements) {
-      count *= 2;
-      refined = true;
+  for (const Chain::Part& part : chain_.parts) {
+    if (part.segment < 0) {
+      base_moment_ += (X.p + 0.5 * part.length * X.R.col(2)).cross(part.mass * loads.gravity);
+      X.p += part.length * X.R.col(2);
+      continue;
+    }
+    const int count = backbone.element_count[part.segment];
+    for (int k = 0; k < count; ++k, ++element) {
+      Vector3 centre = element->p_start;
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < table.nodes; ++j) centre[i] += table.b[j] * element->state.offset[i][j];
+      base_moment_ += centre.cross(part.mass / count * loads.gravity);
+      X = element->X_end();
     }
   }
-  return refined;
+}
+
+void StaticsSolver::placeUnloaded(Backbone& backbone) {
+  warm_ = has_columns_ = false;
+  discretisation_.choose(nullptr, backbone);
+  live_stiffness::placeUnloaded(chain_, backbone);
 }
 
 // along_loads: by load continuation from the unloaded shape alone, otherwise by the quickest way that works.
@@ -190,13 +201,9 @@ bool StaticsSolver::findEquilibrium(const DeadLoads& loads, bool along_loads, Ba
                                     StaticsReport& report) {
   bool converged;
   do {
-    const size_t total = std::accumulate(backbone.element_count.begin(), backbone.element_count.end(), 0);
-    if (total != backbone.elements.size()) {
-      backbone.elements.resize(total);
-      nodes_hold_guess_ = false;
-    }
     if (!warm_) placeFresh(loads, backbone);
-    converged = (!along_loads || warm_) && newton(loads, backbone, 20, report);
+    else prepare(chain_, loads, backbone);
+    converged = !along_loads && quick(loads, backbone, report);
     if (!converged && !along_loads) {
       placeFresh(loads, backbone);
       converged = newton(loads, backbone, 30, report);
@@ -205,39 +212,61 @@ bool StaticsSolver::findEquilibrium(const DeadLoads& loads, bool along_loads, Ba
       placeFresh(loads, backbone);
       converged = continuation(loads, backbone, report);
     }
-    warm_ = converged;
-  } while (converged && refine(backbone, report));
+    report.truncation = discretisation_.truncation(backbone);
+    warm_ = false;
+  } while (converged && discretisation_.refine(backbone));
   return converged;
 }
 
-bool StaticsSolver::findTangent(const DeadLoads& loads, const Backbone& backbone) {
-  const StateColumns tip = tipColumns(scene_, loads, backbone);
-  residual_inverse_ = tip.m.leftCols<3>().inverse();
+bool StaticsSolver::findTangent(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
+  ElementColumns tip;
+  const double change = tipColumns(chain_, loads, !has_columns_, std::max(0.1 * accuracy_, 1e-14), backbone, tip);
+  has_columns_ = std::isfinite(change);
+  if (!has_columns_) return false;
+  report.iteration += change;
+  const auto phi = columnsOf(tip.phi), p = columnsOf(tip.p), m = columnsOf(tip.m);
+  residual_inverse_ = m.leftCols<3>().inverse();
   // dm0 = A^-1 (dM - B df), from the residual's columns [A, B]; C maps [df; dM] to the twist of T.
-  const Matrix3 m0_of_force = -residual_inverse_ * tip.m.rightCols<3>();
-  tangent_.topLeftCorner<3, 3>() = tip.p.rightCols<3>() + tip.p.leftCols<3>() * m0_of_force;
-  tangent_.topRightCorner<3, 3>() = tip.p.leftCols<3>() * residual_inverse_;
-  tangent_.bottomLeftCorner<3, 3>() = tip.phi.rightCols<3>() + tip.phi.leftCols<3>() * m0_of_force;
-  tangent_.bottomRightCorner<3, 3>() = tip.phi.leftCols<3>() * residual_inverse_;
+  const Matrix3 m0_of_force = -residual_inverse_ * m.rightCols<3>();
+  tangent_.topLeftCorner<3, 3>() = p.rightCols<3>() + p.leftCols<3>() * m0_of_force;
+  tangent_.topRightCorner<3, 3>() = p.leftCols<3>() * residual_inverse_;
+  tangent_.bottomLeftCorner<3, 3>() = phi.rightCols<3>() + phi.leftCols<3>() * m0_of_force;
+  tangent_.bottomRightCorner<3, 3>() = phi.leftCols<3>() * residual_inverse_;
   return tangent_.allFinite();
 }
 
+// Positive definite: all pivots of L D L^T are positive.
 bool StaticsSolver::isStable() const {
-  const Matrix6 symmetric_part = 0.5 * (tangent_ + tangent_.transpose());
-  return symmetric_part.llt().info() == Eigen::Success;
+  double a[6][6];
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j <= i; ++j) a[i][j] = 0.5 * (tangent_(i, j) + tangent_(j, i));
+  for (int k = 0; k < 6; ++k) {
+    if (!(a[k][k] > 0.0)) return false;
+    const double inverse = 1.0 / a[k][k];
+    for (int i = k + 1; i < 6; ++i) {
+      const double factor = a[i][k] * inverse;
+      for (int j = k + 1; j <= i; ++j) a[i][j] -= factor * a[j][k];
+    }
+  }
+  return true;
 }
 
 StaticsReport StaticsSolver::solve(const DeadLoads& loads, Backbone& backbone) {
   StaticsReport report;
-  chooseElements(loads, backbone);
-  report.converged = findEquilibrium(loads, false, backbone, report) && findTangent(loads, backbone);
+  softness_ = 0.0;
+  for (const Chain::Part& part : chain_.parts)
+    if (part.segment >= 0) {
+      const RestState& rest = backbone.rest[part.segment];
+      softness_ = std::max(softness_, rest.c.bending_torsion.diagonal().maxCoeff() * rest.stretch * part.length);
+    }
+  if (discretisation_.choose(&loads, backbone)) warm_ = has_columns_ = false;
+  report.converged = findEquilibrium(loads, false, backbone, report) && findTangent(loads, backbone, report);
   report.stable = report.converged && isStable();
   if (report.converged && !report.stable) {
     // Newton's method takes any equilibrium; the one that the robot sags to as its loads grow is more likely stable.
     StaticsReport second;
-    warm_ = false;
-    chooseElements(loads, backbone);
-    second.converged = findEquilibrium(loads, true, backbone, second) && findTangent(loads, backbone);
+    warm_ = has_columns_ = false;
+    second.converged = findEquilibrium(loads, true, backbone, second) && findTangent(loads, backbone, second);
     second.stable = second.converged && isStable();
     second.iterations += report.iterations;
     report = second;

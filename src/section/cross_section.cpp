@@ -25,18 +25,6 @@ SectionMoments::SectionMoments(const CrossSection& section)
   }
 }
 
-Eigen::Matrix2d SectionMoments::secondMoments(double stretch) const {
-  Eigen::Matrix2d moments = chamber_spread_ / -stretch;
-  moments.diagonal().array() += tube_moment_ / (stretch * stretch) - chamber_moment_;
-  return moments;
-}
-
-bool SectionMoments::isValidAt(double stretch) const {
-  if (!(stretch > 0.0) || !(area(stretch) > 0.0)) return false;
-  const Eigen::Matrix2d moments = secondMoments(stretch);
-  return moments.trace() > 0.0 && moments.determinant() > 0.0;
-}
-
 ComplianceDensity SectionMoments::complianceDensity(double stretch) const {
   const double A = area(stretch);
   const Eigen::Matrix2d I = secondMoments(stretch);

@@ -16,28 +16,6 @@ RestState outOfRange(double stretch) {
   return state;
 }
 
-// (12), (15), (30): increments with the compliance and chamber positions of the step before.
-RestState fixedSteps(const SectionMoments& section, double force, const Vector3& moment, int steps) {
-  RestState state;
-  state.c = section.complianceDensity(1.0);
-  for (int step = 0; step < steps; ++step) {
-    state.curvature += state.c.bending_torsion * (moment / (steps * std::sqrt(state.stretch)));
-    state.stretch *= 1.0 + state.c.shear_elongation(2, 2) * (force / steps);
-    if (!section.isValidAt(state.stretch)) return outOfRange(state.stretch);
-    state.c = section.complianceDensity(state.stretch);
-  }
-  return state;
-}
-
-RestState linearStep(const SectionMoments& section, double force, const Vector3& moment) {
-  RestState state;
-  state.c = section.complianceDensity(1.0);
-  state.curvature = state.c.bending_torsion * moment;
-  state.stretch = 1.0 + state.c.shear_elongation(2, 2) * force;
-  if (!(state.stretch > 0.0)) return outOfRange(state.stretch);
-  return state;
-}
-
 // Force that holds stretch 1 + e in the limit of small steps, divided by e: with dlam / lam = dF / (E A(lam)),
 //   F(lam) = pi E [ (r_m1^2 - r_m2^2) (1 - 1/lam) - N r_P^2 ln lam ],
 // written so that neither F nor F / e loses digits at e = 0.
@@ -65,29 +43,6 @@ double elongationFor(const SectionMoments& section, double force) {
   return e;
 }
 
-// u_rest = int dT / (E I) with dT / dF constant but for the pitch radius, dF = E A / lam dlam:
-//   u_rest = (e / F) int_0^1 I(lam)^-1 T(1) A(lam) lam^(-3/2) dx,  lam = 1 + x e.
-RestState continuousSteps(const SectionMoments& section, double force, const Vector3& moment) {
-  const double e = elongationFor(section, force);
-  const double lam_end = 1.0 + e;
-  if (!section.isValidAt(lam_end)) return outOfRange(lam_end);
-  Eigen::Vector2d integral = Eigen::Vector2d::Zero();
-  constexpr int kPanels = 4;
-  for (int panel = 0; panel < kPanels; ++panel) {
-    for (int i = 0; i < kStages; ++i) {
-      const double lam = 1.0 + e * (panel + gaussLegendre().c[i]) / kPanels;
-      const double weight = gaussLegendre().b[i] / kPanels;
-      integral += weight * section.area(lam) / (lam * std::sqrt(lam)) *
-                  (section.secondMoments(lam).inverse() * moment.head<2>());
-    }
-  }
-  RestState state;
-  state.stretch = lam_end;
-  state.curvature.head<2>() = integral / forcePerElongation(section, e);
-  state.c = section.complianceDensity(lam_end);
-  return state;
-}
-
 }  // namespace
 
 int stepCount(double largest_pressure, double pressure_step) {
@@ -95,16 +50,77 @@ int stepCount(double largest_pressure, double pressure_step) {
   return std::max(1, static_cast<int>(steps));
 }
 
-RestState restState(const CrossSection& section, PressuresRef pressures, Stepping stepping, int steps) {
-  const SectionMoments moments(section);
-  const double force = section.chambers.actuationForce(pressures);
-  const Vector3 moment = section.chambers.actuationMoment(pressures, 1.0);
+LoadStepper::LoadStepper(const CrossSection& section)
+    : section_(section), wrench_of_pressures_(3, section.chambers.count()) {
+  for (int k = 0; k < section.chambers.count(); ++k) {
+    const Vector3 d = section.chambers.centre(k, 1.0);
+    wrench_of_pressures_.col(k) = section.chambers.area() * Vector3(1.0, d.y(), -d.x());  // e3, d x e3
+  }
+}
+
+// (12), (15), (30): increments with the compliance and chamber positions of the step before.
+RestState LoadStepper::fixedSteps(double force, const Eigen::Vector2d& moment, int steps) const {
+  double stretch = 1.0;
+  Eigen::Vector2d curvature = Eigen::Vector2d::Zero();
+  const double step = 1.0 / (steps * section_.youngsModulus());
+  for (int i = 0; i < steps; ++i) {
+    curvature += section_.secondMoments(stretch).inverse() * moment * (step / std::sqrt(stretch));
+    stretch *= 1.0 + force * step / section_.area(stretch);
+    if (!section_.isValidAt(stretch)) return outOfRange(stretch);
+  }
+  RestState state;
+  state.stretch = stretch;
+  state.curvature.head<2>() = curvature;
+  state.c = section_.complianceDensity(stretch);
+  return state;
+}
+
+RestState LoadStepper::linearStep(double force, const Eigen::Vector2d& moment) const {
+  RestState state;
+  state.c = section_.complianceDensity(1.0);
+  state.curvature.head<2>() = state.c.bending_torsion.topLeftCorner<2, 2>() * moment;
+  state.stretch = 1.0 + state.c.shear_elongation(2, 2) * force;
+  if (!(state.stretch > 0.0)) return outOfRange(state.stretch);
+  return state;
+}
+
+// u_rest = int dT / (E I) with dT / dF constant but for the pitch radius, dF = E A / lam dlam:
+//   u_rest = (e / F) int_0^1 I(lam)^-1 T(1) A(lam) lam^(-3/2) dx,  lam = 1 + x e.
+RestState LoadStepper::continuousSteps(double force, const Eigen::Vector2d& moment) const {
+  const double e = elongationFor(section_, force);
+  const double lam_end = 1.0 + e;
+  if (!section_.isValidAt(lam_end)) return outOfRange(lam_end);
+  Eigen::Vector2d integral = Eigen::Vector2d::Zero();
+  constexpr int kPanels = 4, kNodes = 6;
+  const GaussLegendre& table = gaussLegendre(kNodes);
+  for (int panel = 0; panel < kPanels; ++panel) {
+    for (int i = 0; i < kNodes; ++i) {
+      const double lam = 1.0 + e * (panel + table.c[i]) / kPanels;
+      const double weight = table.b[i] / kPanels;
+      integral += weight * section_.area(lam) / (lam * std::sqrt(lam)) * (section_.secondMoments(lam).inverse() * moment);
+    }
+  }
+  RestState state;
+  state.stretch = lam_end;
+  state.curvature.head<2>() = integral / forcePerElongation(section_, e);
+  state.c = section_.complianceDensity(lam_end);
+  return state;
+}
+
+RestState LoadStepper::restState(PressuresRef pressures, Stepping stepping, int steps) const {
+  Vector3 wrench = Vector3::Zero();
+  for (int k = 0; k < pressures.size(); ++k) wrench += pressures[k] * wrench_of_pressures_.col(k);
+  const Eigen::Vector2d moment = wrench.tail<2>();
   switch (stepping) {
-    case Stepping::kFixedStep: return fixedSteps(moments, force, moment, steps);
-    case Stepping::kContinuous: return continuousSteps(moments, force, moment);
-    case Stepping::kLinear: return linearStep(moments, force, moment);
+    case Stepping::kFixedStep: return fixedSteps(wrench[0], moment, steps);
+    case Stepping::kContinuous: return continuousSteps(wrench[0], moment);
+    case Stepping::kLinear: return linearStep(wrench[0], moment);
   }
   return outOfRange(1.0);
+}
+
+RestState restState(const CrossSection& section, PressuresRef pressures, Stepping stepping, int steps) {
+  return LoadStepper(section).restState(pressures, stepping, steps);
 }
 
 }  // namespace live_stiffness

@@ -5,15 +5,15 @@
 #include <functional>
 #include <vector>
 
-#include "live_stiffness/conventions.h"
+#include "support/rotation_samples.h"
 
 namespace live_stiffness {
 namespace {
 
 using Real = long double;
 
-// Reference: Taylor series of sum_k (-1)^k x^k / (2k + first)!, in long double; no cancellation below t = 2, and 64
-// bits of mantissa leave 1e-17 relative up to pi.
+// Reference: Taylor series of sum_k (-1)^k x^k / (2k + first)!, in long double: relative error 1e-17 up to pi, and
+// 1e-16 at 6.2, where the sum of b is a two-thousandth of its largest term.
 Real series(Real x, int first) {
   Real term = 1;
   for (int k = 2; k <= first; ++k) term /= k;
@@ -32,39 +32,70 @@ struct Case {
   const char* name;
   double (*function)(double, double);
   std::function<Real(Real)> reference;
+  double switch_angle;
 };
 
 const Case kCases[] = {
-    {"a", angleA, [](Real x) { return series(x, 1); }},
-    {"b", angleB, [](Real x) { return series(x, 2); }},
-    {"c", angleC, [](Real x) { return series(x, 3); }},
-    {"d", angleD, referenceD},
+    {"a", angleA, [](Real x) { return series(x, 1); }, kSeriesBelowAngle},
+    {"b", angleB, [](Real x) { return series(x, 2); }, kSeriesBelowAngle},
+    {"c", angleC, [](Real x) { return series(x, 3); }, kSeriesBelowAngle},
+    {"d", angleD, referenceD, kPoleSeriesBelowAngle},
 };
 
+constexpr double kRounding = 6e-16;  // five roundings of 1.1e-16; the worst is c just above its switch
+
+// Relative error; of a beyond 2 rad the absolute one.
 double relativeError(const Case& c, double t, double series_below) {
   const double x = t * t;
   const Real exact = c.reference(x);
-  return static_cast<double>(std::abs((c.function(x, series_below) - exact) / exact));
+  const Real scale = c.function == angleA && t > 2.0 ? 1 : exact;  // it has zeros at pi and 2 pi
+  return static_cast<double>(std::abs((c.function(x, series_below) - exact) / scale));
 }
 
-TEST(AngleFunctions, AreExactToRoundingFromZeroToThree) {
+// Sampled angles, and a thousand on either side of each switch.
+std::vector<double> angles() {
+  std::vector<double> result = sampleAngles(2.0 * kPi);
+  RandomSource random(10);
+  for (double low : {0.0, 0.5 * kSeriesBelowAngle, kSeriesBelowAngle, 2.0, 3.0, kPi})
+    for (int i = 0; i < 1000; ++i) result.push_back(random.uniform(low, low + 1.0));
+  return result;
+}
+
+TEST(AngleFunctions, AreExactToRoundingFromZeroToNearAFullTurn) {
   for (const Case& c : kCases)
-    for (double t : {0.0, 1e-300, 1e-12, 1e-8, 1e-4, 1e-3, 1e-2, 0.1, 0.5, 0.9, 0.999999, 1.0, 1.000001, 1.2, 2.0,
-                     3.0}) {
-      // Worst is d just above the switch, where b - a/2 is a twelfth of b: two roundings of 1.1e-16 times 12. (Near pi
-      // a passes through zero, and no relative bound can hold.)
-      EXPECT_LE(relativeError(c, t, kSeriesBelowAngle), 3e-15) << c.name << " at " << t;
+    for (double t : angles()) {
+      // b has a double zero and d a pole at 2 pi: there the rounding of x counts as often as its distance goes into t.
+      const double bound = (c.name[0] == 'b' || c.name[0] == 'd') && t > 4.0 ? t / (2.0 * kPi - t) : 1.0;
+      EXPECT_LE(relativeError(c, t, c.switch_angle), bound * kRounding) << c.name << " at " << t;
     }
 }
 
-TEST(AngleFunctions, BothBranchesAgreeAtTheSameAngleAroundTheSwitch) {
+TEST(AngleFunctions, DefaultsAreTheSwitchesTested) {
+  for (double t : {kSeriesBelowAngle * 0.999, kSeriesBelowAngle * 1.001, kPi * 0.999, kPi * 1.001}) {
+    const double x = t * t;
+    EXPECT_EQ(angleA(x), angleA(x, kSeriesBelowAngle));
+    EXPECT_EQ(angleB(x), angleB(x, kSeriesBelowAngle));
+    EXPECT_EQ(angleC(x), angleC(x, kSeriesBelowAngle));
+    EXPECT_EQ(angleD(x), angleD(x, kPoleSeriesBelowAngle));
+  }
+}
+
+TEST(AngleFunctions, BothBranchesAreExactAtTheSameAngleAroundTheSwitch) {
   for (const Case& c : kCases)
-    for (double t : {0.8, 0.9, 0.999, 1.0, 1.001, 1.1}) {
-      // The first term left out at t = 1.1 is below 1e-18; the closed form costs what it costs above, times
-      // 1.6 at t = 0.8, as b - a/2 falls with t^2.
-      EXPECT_LE(relativeError(c, t, 2.0), 4e-16) << c.name << " by series at " << t;
-      EXPECT_LE(relativeError(c, t, 0.0), 5e-15) << c.name << " in closed form at " << t;
+    for (double factor : kAroundSwitch) {
+      const double t = factor * c.switch_angle;
+      // The first term left out grows with t^20: by 2.7 at 1.05, to 1.3e-16 at most.
+      EXPECT_LE(relativeError(c, t, kForceSeries), kRounding) << c.name << " by series at " << t;
+      EXPECT_LE(relativeError(c, t, kForceClosedForm), kRounding) << c.name << " in closed form at " << t;
     }
+}
+
+TEST(AngleFunctions, ClosedFormsOfAAndBHoldAtAnyAngle) {
+  for (double t : sampleAngles(kSeriesBelowAngle)) {
+    if (t < 1e-150) continue;  // t^2 underflows, and 0 / 0 is why there is a series
+    EXPECT_LE(relativeError(kCases[0], t, kForceClosedForm), kRounding) << t;
+    EXPECT_LE(relativeError(kCases[1], t, kForceClosedForm), kRounding) << t;
+  }
 }
 
 TEST(AngleFunctions, SwitchIsWhereItIsSaidToBe) {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "support/matrix_near.h"
-#include "support/random_source.h"
+#include "support/rotation_samples.h"
 #include "support/series_exp.h"
 
 namespace live_stiffness {
@@ -33,9 +33,19 @@ TEST(Pose, ComposesAsHomogeneousMatrices) {
   EXPECT_TRUE(matrixNear(X * p, (homogeneous(X) * p.homogeneous()).head<3>(), 1e-15));
 }
 
-TEST(ExpSe3, EqualsTheMatrixExponential) {
+TEST(Pose, ComposedWithItsInverseIsIdentityAndAssociates) {
+  RandomSource random(28);
+  for (const Vector3& w : sampleRotations(6.25)) {
+    const Pose X{expSo3(w), random.vector(0.3)}, Y = randomPose(random), Z = randomPose(random);
+    EXPECT_TRUE(matrixNear(homogeneous(X * X.inverse()), Eigen::Matrix4d::Identity(), 4e-15)) << w.transpose();
+    EXPECT_TRUE(matrixNear(homogeneous((X * Y) * Z), homogeneous(X * (Y * Z)), 2e-15)) << w.transpose();
+    EXPECT_TRUE(matrixNear(homogeneous((X * Y).inverse()), homogeneous(Y.inverse() * X.inverse()), 2e-15));
+  }
+}
+
+TEST(ExpSe3, EqualsTheMatrixExponential) {  // by its series in long double
   RandomSource random(22);
-  for (double bend : {0.0, 1e-300, 1e-9, 1e-3, 0.5, 0.999999, 1.000001, 2.0, 3.0}) {
+  for (double bend : sampleAngles(6.25)) {
     const double s = 0.05;
     const Vector3 v = Vector3::UnitZ() + random.vector(0.2), u = random.direction(bend / s);
     Eigen::Matrix4d xi = Eigen::Matrix4d::Zero();
@@ -46,10 +56,40 @@ TEST(ExpSe3, EqualsTheMatrixExponential) {
   }
 }
 
+TEST(ExpSe3, BothBranchesAgreeAtTheSameStrainAroundTheSwitch) {
+  RandomSource random(29);
+  for (double factor : kAroundSwitch) {
+    const double s = 0.05;
+    const Vector3 v = Vector3::UnitZ() + random.vector(0.2), u = random.direction(factor * kSeriesBelowAngle / s);
+    EXPECT_TRUE(matrixNear(homogeneous(expSe3(v, u, s, kForceSeries)), homogeneous(expSe3(v, u, s, kForceClosedForm)),
+                           2e-15)) << factor;
+  }
+}
+
 TEST(ExpSe3, RunsBackwards) {
-  const Vector3 v(0.1, 0.0, 1.0), u(3.0, -20.0, 5.0);
-  const Pose there_and_back = expSe3(v, u, 0.04) * expSe3(v, u, -0.04);
-  EXPECT_TRUE(matrixNear(homogeneous(there_and_back), Eigen::Matrix4d::Identity(), 1e-15));
+  RandomSource random(30);
+  for (double bend : sampleAngles(6.25)) {
+    const Vector3 v = Vector3::UnitZ() + random.vector(0.2), u = random.direction(bend / 0.04);
+    const Pose there_and_back = expSe3(v, u, 0.04) * expSe3(v, u, -0.04);
+    EXPECT_TRUE(matrixNear(homogeneous(there_and_back), Eigen::Matrix4d::Identity(), 4e-15)) << bend;
+  }
+}
+
+TEST(ExpSe3, AddsLengthsOfOneStrain) {
+  RandomSource random(31);
+  for (double bend : sampleAngles(3.1)) {
+    const Vector3 v = Vector3::UnitZ() + random.vector(0.2), u = random.direction(bend / 0.04);
+    const Pose parts = expSe3(v, u, 0.013) * expSe3(v, u, 0.027);
+    EXPECT_TRUE(matrixNear(homogeneous(parts), homogeneous(expSe3(v, u, 0.04)), 2e-15)) << bend;
+  }
+}
+
+TEST(ExpSe3, PlacesByTheLeftJacobian) {  // p = s V(s u) v, the integral of the tangent
+  RandomSource random(32);
+  for (double bend : sampleAngles(6.25)) {
+    const Vector3 v = Vector3::UnitZ() + random.vector(0.2), u = random.direction(bend / 0.04);
+    EXPECT_TRUE(matrixNear(expSe3(v, u, 0.04).p, 0.04 * leftJacobianSo3(0.04 * u) * v, 1e-16)) << bend;
+  }
 }
 
 TEST(WrenchAdjoint, KeepsPower) {
@@ -63,10 +103,26 @@ TEST(WrenchAdjoint, KeepsPower) {
   EXPECT_NEAR((wrenchAdjoint(X_AB) * F_B).dot(V_A), F_B.dot(V_B), 2e-15);
 }
 
-TEST(WrenchAdjoint, OfAProductIsTheProduct) {
+TEST(WrenchAdjoint, OfAProductIsTheProductAndOfTheInverseTheInverse) {  // (48)
   RandomSource random(24);
-  const Pose X = randomPose(random), Y = randomPose(random);
-  EXPECT_TRUE(matrixNear(wrenchAdjoint(X * Y), wrenchAdjoint(X) * wrenchAdjoint(Y), 2e-15));
+  for (const Vector3& w : sampleRotations(6.25)) {
+    const Pose X{expSo3(w), random.vector(0.3)}, Y = randomPose(random);
+    EXPECT_TRUE(matrixNear(wrenchAdjoint(X * Y), wrenchAdjoint(X) * wrenchAdjoint(Y), 2e-15)) << w.transpose();
+    EXPECT_TRUE(matrixNear(wrenchAdjoint(X) * wrenchAdjoint(X.inverse()), Matrix6::Identity(), 4e-15))
+        << w.transpose();
+  }
+}
+
+TEST(WrenchAdjoint, TurnedByDeltaIsItsInverseTransposed) {  // (50): Delta Ad Delta = Ad^-T, which takes twists
+  RandomSource random(33);
+  Matrix6 delta = Matrix6::Zero();
+  delta.topRightCorner<3, 3>().setIdentity();
+  delta.bottomLeftCorner<3, 3>().setIdentity();
+  for (const Vector3& w : sampleRotations(6.25)) {
+    const Pose X{expSo3(w), random.vector(0.3)};
+    EXPECT_TRUE(matrixNear(delta * wrenchAdjoint(X) * delta, wrenchAdjoint(X.inverse()).transpose(), 1e-15))
+        << w.transpose();
+  }
 }
 
 TEST(ShiftCompliance, IsHCHTransposed) {
@@ -88,6 +144,22 @@ TEST(ShiftCompliance, MapsAWrenchAtTheNewPointToTheTwistOfTheNewPoint) {
   Twist twist = C_o * at_o;
   linear(twist) += angular(twist).cross(offset);
   EXPECT_TRUE(matrixNear(shiftCompliance(C_o, offset) * at_p, twist, 4e-15));
+}
+
+TEST(ShiftCompliance, OfTwoShiftsIsThatOfTheirSum) {
+  RandomSource random(34);
+  const Matrix6 C = randomCompliance(random);
+  const Vector3 first = random.vector(0.1), second = random.vector(0.1);
+  EXPECT_TRUE(matrixNear(shiftCompliance(shiftCompliance(C, first), second), shiftCompliance(C, first + second),
+                         2e-15));
+  EXPECT_TRUE(matrixNear(shiftCompliance(shiftCompliance(C, first), -first), C, 2e-15));
+  EXPECT_TRUE(matrixNear(shiftCompliance(C, Vector3::Zero()), C, 0.0));
+}
+
+TEST(ShiftCompliance, IsTheAdjointOfTheSameAxes) {  // H = Ad^T of the pose of the new point
+  RandomSource random(35);
+  const Vector3 offset = random.vector(0.1);
+  EXPECT_TRUE(matrixNear(twistShift(offset), wrenchAdjoint({Matrix3::Identity(), offset}).transpose(), 0.0));
 }
 
 TEST(ComplianceInBodyAxes, MapsBodyWrenchToBodyTwist) {

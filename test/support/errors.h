@@ -1,5 +1,6 @@
 #pragma once
-// Relative errors of poses and compliances, free of units: moments are scaled by a length of the robot.
+// Errors of rotations, and relative ones of poses and compliances, free of units: moments are scaled by a length of the
+// robot.
 
 #include <algorithm>
 
@@ -12,6 +13,9 @@ inline double poseError(const Pose& actual, const Pose& expected, double length)
   const double angle = logSo3(actual.R * expected.R.transpose()).norm();
   return std::max((actual.p - expected.p).norm() / length, angle);
 }
+
+// By how much R is not a rotation: Frobenius norm of R^T R - I (52).
+inline double orthonormalityError(const Matrix3& R) { return (R.transpose() * R - Matrix3::Identity()).norm(); }
 
 // C with its moments scaled to forces at `length` (m): all of it in m/N.
 inline Matrix6 scaledCompliance(Matrix6 C, double length) {

@@ -42,8 +42,9 @@ LiteralRod::State LiteralRod::rate(const State& at) const {
   return d;
 }
 
-LiteralRod::State LiteralRod::march(const Vector6& base_wrench, int steps) const {
+LiteralRod::State LiteralRod::march(const Vector6& base_wrench, int steps, std::vector<Pose>* poses) const {
   State s;
+  if (poses) poses->assign(1, s.X);
   s.n = linear(base_wrench);
   s.m = angular(base_wrench);
   const double h = length_ / steps;
@@ -55,6 +56,7 @@ LiteralRod::State LiteralRod::march(const Vector6& base_wrench, int steps) const
     s = moved(State{{a.X.R + 2.0 * b.X.R + 2.0 * c.X.R + d.X.R, a.X.p + 2.0 * b.X.p + 2.0 * c.X.p + d.X.p},
                     a.n + 2.0 * b.n + 2.0 * c.n + d.n, a.m + 2.0 * b.m + 2.0 * c.m + d.m},
               h / 6.0);
+    if (poses) poses->push_back(s.X);
   }
   return s;
 }
@@ -72,15 +74,16 @@ Vector6 LiteralRod::residual(const State& tip) const {  // (35), moments over th
   return result;
 }
 
-Pose LiteralRod::solve(int steps) const {
+std::vector<Pose> LiteralRod::solveAlong(int steps) const {
+  std::vector<Pose> poses;
   const double scale = F_P_.norm() + linear(loads_.tip).norm() + 1.0;  // N
   Vector6 base = Vector6::Zero();  // start: the wrench of pressure alone, on a rod that has it all along
   linear(base) = F_P_;
   for (size_t k = 0; k < d_.size(); ++k) angular(base) += d_[k].cross(chamber_force_[k]);
   for (int iteration = 0; iteration < 40; ++iteration) {
-    const State tip = march(base, steps);
+    const State tip = march(base, steps, &poses);
     const Vector6 r = residual(tip);
-    if (r.norm() < 1e-12 * scale) return tip.X;
+    if (r.norm() < 1e-12 * scale) return poses;
     Matrix6 jacobian;
     for (int i = 0; i < 6; ++i) {
       const double step = 1e-6 * scale * (i < 3 ? 1.0 : length_);

@@ -19,7 +19,10 @@ class LiteralRod {
              const RestState& rest);
 
   // Pose of the tip. Throws std::runtime_error unless the tip wrench is met to 1e-12 of its scale.
-  Pose solve(int steps) const;
+  Pose solve(int steps) const { return solveAlong(steps).back(); }
+
+  // The same after every step, base first: steps + 1 poses. Their rotation matrices are as RK4 leaves them.
+  std::vector<Pose> solveAlong(int steps) const;
 
  private:
   struct State {
@@ -27,7 +30,8 @@ class LiteralRod {
     Vector3 n, m;
   };
   State rate(const State& at) const;
-  State march(const Vector6& base_wrench, int steps) const;
+  // The state at the tip; poses, if given, gets those of all steps.
+  State march(const Vector6& base_wrench, int steps, std::vector<Pose>* poses = nullptr) const;
   Vector6 residual(const State& tip) const;
 
   const RestState& rest_;

@@ -14,13 +14,11 @@ struct Station {
   Matrix6 compliance = Matrix6::Zero();
 };
 
-// Compliance that one element adds about the point p_B (m, base axes).
-Matrix6 elementCompliance(const RestState& rest, const RodElement& element, const Vector3& p_B);
+// Material compliance of the whole chain about T, base axes. Prepares the elements for stations().
+Matrix6 accumulateMaterial(Backbone& backbone);
 
-// Material compliance of the whole chain about T, base axes.
-Matrix6 tipMaterialCompliance(const Backbone& backbone);
-
-// Station at `fraction` (0 to 1) of a segment's length. loaded: the backbone comes from statics.
-Station stationAt(const Backbone& backbone, int segment, double fraction, bool loaded);
+// Stations at fractions (0 to 1, in any order; values beyond are moved to the ends) of a segment's length. Needs
+// accumulateMaterial(). out: as many as fractions.
+void stationsAt(const Backbone& backbone, int segment, const std::vector<double>& fractions, std::vector<Station>& out);
 
 }  // namespace live_stiffness

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "live_stiffness/checks.h"
+#include "live_stiffness/rod/element_passes.h"
 #include "live_stiffness/section/load_stepping.h"
 
 namespace live_stiffness {
@@ -19,7 +20,9 @@ struct ModelOptions {
   bool external_loads = true;  // false: weight and tip wrench are ignored (piecewise constant curvature)
   Stepping stepping = Stepping::kFixedStep;
   double pressure_step = 15000.0;  // largest step of kFixedStep, Pa
-  double accuracy = 1e-9;          // relative, of pose and compliance, by which elements are chosen; 1e-13 to 1e-2
+  double accuracy = 1e-9;          // relative, of pose and compliance, by which stages and elements are chosen; 1e-13 to 1e-2
+  int stages = 0;                  // Gauss nodes of every element, 2 to 7; 0: whatever is cheapest for the accuracy
+  Simd simd = Simd::kBest;         // both give the same to rounding
 };
 
 // Options from their names. model: lpcc, npcc, lcm, ncm or empty (external loads act); stepping: fixed_step,

@@ -54,7 +54,8 @@ class StiffnessWorkspace {
 
  private:
   friend class StiffnessModel;
-  StiffnessWorkspace(const Scene& scene, double accuracy) : backbone_(scene), statics_(scene, accuracy) {}
+  StiffnessWorkspace(const Scene& scene, const ModelOptions& options)
+      : backbone_(scene, options.simd), statics_(scene, options.accuracy, options.stages) {}
 
   Backbone backbone_;
   StaticsSolver statics_;
@@ -72,7 +73,7 @@ class StiffnessModel {
 
   const Scene& scene() const { return scene_; }
   const ModelOptions& options() const { return options_; }
-  StiffnessWorkspace makeWorkspace() const { return {scene_, options_.accuracy}; }
+  StiffnessWorkspace makeWorkspace() const { return {scene_, options_}; }
 
   // Solves for gauge pressures (Pa, one per chamber, base to tip; at least -1 atm) and a dead wrench at T (base axes).
   // Never throws and never allocates; a failure is a status.
@@ -80,6 +81,9 @@ class StiffnessModel {
 
   // Station of the last successful solve in the workspace. segment: 0 to segmentCount() - 1; fraction: 0 to 1.
   Station station(const StiffnessWorkspace& workspace, int segment, double fraction) const;
+  // The same for several fractions at once, quicker. out: as many as fractions; allocates only to grow.
+  void stations(const StiffnessWorkspace& workspace, int segment, const std::vector<double>& fractions,
+                std::vector<Station>& out) const;
 
   // A status in words, with the offending value, its legal range and the way out.
   std::string describe(const SolveStatus& status) const;
@@ -90,6 +94,8 @@ class StiffnessModel {
 
   Scene scene_;
   ModelOptions options_;
+  bool has_weight_;
+  std::vector<LoadStepper> steppers_;  // one per segment
 };
 
 }  // namespace live_stiffness

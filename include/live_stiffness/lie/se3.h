@@ -18,7 +18,7 @@ struct Pose {
 
 // Pose after the arc length s (m) along a constant strain: linear v (-), angular u (1/m), in body axes.
 // exp(s [v; u]); with v = e3 this is the circular arc (43).
-Pose expSe3(const Vector3& v, const Vector3& u, double s);
+Pose expSe3(const Vector3& v, const Vector3& u, double s, double series_below = kSeriesBelowAngle);
 
 // Adjoint Ad_AB (47): takes a wrench of frame B to frame A, [f; m]_A = Ad_AB [f; m]_B.
 Matrix6 wrenchAdjoint(const Pose& X_AB);

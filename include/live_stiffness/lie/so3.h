@@ -1,5 +1,7 @@
 #pragma once
 // The rotation group SO(3): exponential, logarithm and the derivative of the exponential.
+//
+// Where a function has a branch, its switch is the last argument, for tests to force either branch.
 
 #include <Eigen/Geometry>
 
@@ -16,10 +18,10 @@ inline Matrix3 hat(const Vector3& x) {
 }
 
 // Rotation matrix of the rotation vector w (rad): I + a hat(w) + b hat(w)^2.
-inline Matrix3 expSo3(const Vector3& w) {
+inline Matrix3 expSo3(const Vector3& w, double series_below = kSeriesBelowAngle) {
   const double x = w.squaredNorm();
-  const Vector3 aw = angleA(x) * w;
-  const Vector3 bw = angleB(x) * w;
+  const Vector3 aw = angleA(x, series_below) * w;
+  const Vector3 bw = angleB(x, series_below) * w;
   const double bxx = bw.x() * w.x(), byy = bw.y() * w.y(), bzz = bw.z() * w.z();
   const double bxy = bw.x() * w.y(), bxz = bw.x() * w.z(), byz = bw.y() * w.z();
   Matrix3 R;
@@ -29,17 +31,30 @@ inline Matrix3 expSo3(const Vector3& w) {
   return R;
 }
 
-// Rotation vector (rad, length <= pi) of R. At exactly pi the sign of the axis is arbitrary.
-Vector3 logSo3(const Matrix3& R);
+// Rotation vector (rad, length <= pi) of R. At exactly pi the sign of the axis is arbitrary. linear_below: sine of half
+// the angle below which the arc tangent is its argument.
+Vector3 logSo3(const Matrix3& R, double linear_below = 1e-8);
 
 // Left Jacobian V(w) = I + b hat(w) + c hat(w)^2, the integral of exp(x hat(w)) over x in [0, 1].
-Matrix3 leftJacobianSo3(const Vector3& w);
+Matrix3 leftJacobianSo3(const Vector3& w, double series_below = kSeriesBelowAngle);
 
 // With R(s) = R0 exp(hat(w(s))) and R' = R hat(u): the rate w' = (I + hat(w)/2 + d hat(w)^2) u, the inverse right
 // Jacobian applied to u. Singular at |w| = 2 pi, so keep elements well below.
-inline Vector3 bodyRateToVectorRate(const Vector3& w, const Vector3& u) {
+inline Vector3 bodyRateToVectorRate(const Vector3& w, const Vector3& u,
+                                    double series_below = kPoleSeriesBelowAngle) {
   const Vector3 w_cross_u = w.cross(u);
-  return u + 0.5 * w_cross_u + angleD(w.squaredNorm()) * w.cross(w_cross_u);
+  return u + 0.5 * w_cross_u + angleD(w.squaredNorm(), series_below) * w.cross(w_cross_u);
+}
+
+// The rotation near a product of many rotations: one Newton-Schulz step R (3 I - R^T R) / 2. What R lacks of
+// orthonormality, e = |R^T R - I|, becomes 3/4 e^2 plus rounding, so one step suffices for e < 1e-8.
+//
+// Each plain product adds some 1e-16 to e: by chance over different rotations (3e-12 after a million), steadily if one
+// is repeated (1e-10). So apply this after every product of an endless chain, or every ten for 1e-14. The chains of a
+// robot (elements and links, some dozens) do without, so Pose::operator* stays a plain product.
+inline Matrix3 orthonormalised(const Matrix3& R) {
+  const Matrix3 defect = Matrix3::Identity() - R.transpose() * R;
+  return R + 0.5 * R * defect;
 }
 
 }  // namespace live_stiffness

@@ -5,11 +5,7 @@
 
 namespace live_stiffness {
 
-// Sets element_count for a shape without loads, so that the compliance quadrature over each element is exact to
-// rounding: at most 1.5 rad of bending an element.
-void chooseUnloadedElements(const Scene& scene, Backbone& backbone);
-
-// Fills elements and X_BT from backbone.rest and backbone.element_count.
-void placeUnloaded(const Scene& scene, Backbone& backbone);
+// Fills elements and X_BT from backbone.rest and the number of elements and stages that the backbone has.
+void placeUnloaded(const Chain& chain, Backbone& backbone);
 
 }  // namespace live_stiffness

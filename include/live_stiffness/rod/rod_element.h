@@ -1,70 +1,59 @@
 #pragma once
-// One stretch of a Cosserat rod between two arc lengths, sampled at the Gauss-Legendre nodes.
-//
-// In body axes the actuation wrench of a fluidic segment is constant along it, so it is a rest strain and not a load:
-//   v = e3 + c_se R^T n,   u = u_rest + c_bt R^T m                                             (7), (9), (37)
-//   p' = R v,  R' = R hat(u),  n' = -w - R f,  m' = -p' x n                                    (8)
-// with n, m the *external* loads only, w a dead line load (weight) and f one that follows the section.
+// One stretch of a Cosserat rod between two arc lengths, collocated at the Gauss-Legendre nodes. The equations are in
+// src/rod/element_passes_code.h, their derivation in docs/derivation.md.
 
-#include <array>
-
-#include "live_stiffness/gauss_legendre.h"
 #include "live_stiffness/lie/se3.h"
+#include "live_stiffness/rod/element_passes.h"
 #include "live_stiffness/section/load_stepping.h"
 
 namespace live_stiffness {
 
-using StageVectors = Eigen::Matrix<double, 3, kStages>;  // one column per Gauss node
-
 struct RodElement {
-  // Set by the caller. Wrenches in base axes; arc lengths are stretched ones, m.
-  int segment = 0;       // index of the segment it is part of
-  double start = 0.0;    // from the segment's base
-  double length = 0.0;   // negative: integrated from tip towards base
-  Pose X_start;          // pose of its first section in B
-  Vector3 n_start = Vector3::Zero();         // N
-  Vector3 m_start = Vector3::Zero();         // N m
-  Vector3 line_load = Vector3::Zero();       // w, N/m
-  Vector3 follower_load = Vector3::Zero();   // f, N/m, body axes
+  int segment = 0;     // index of the segment it is part of
+  double start = 0.0;  // arc length of its start from the segment's base, stretched, m
+  Vector3 p_start = Vector3::Zero();  // of its first section in B, m
+  ElementState state{};
+  // Material compliance of everything before the element, about its start, packed. Set by accumulateMaterial().
+  double start_compliance[kPackedSize] = {};
 
-  // The solution.
-  Pose X_end;
-  Vector3 n_end = Vector3::Zero();
-  Vector3 m_end = Vector3::Zero();
-  std::array<Pose, kStages> X;               // at the nodes
-  StageVectors n = StageVectors::Zero();     // at the nodes
-  StageVectors m = StageVectors::Zero();
-  StageVectors rotation = StageVectors::Zero();  // rotation vectors from X_start, rad; also the next solve's guess
-  StageVectors tangent = StageVectors::Zero();   // p', -
-  double truncation = 0.0;  // size of the highest Legendre coefficient of the curvature, or what the one below it lets
-                            // expect if larger, times length, rad
+  // Start values: pose of the first section in B; external force and moment there, N and N m, base axes.
+  void setStart(const Pose& X, const Vector3& n, const Vector3& m);
+  void setSection(const RestState& rest);
+  // Dead load w per stretched length, base axes, and load f that follows the section, body axes; N/m.
+  void setLoads(const Vector3& line_load, const Vector3& follower_load = Vector3::Zero());
 
-  double weight(int i) const { return length * gaussLegendre().b[i]; }  // quadrature weight of node i, m
+  Pose X_start() const;
+  Pose X_end() const;
+  Vector3 n_end() const { return Vector3(state.n_end); }
+  Vector3 m_end() const { return Vector3(state.m_end); }
+  Pose X(int node) const;  // in B
+  double bending(int stages) const;  // about the angle between its ends, rad
 };
 
-// Fills the element when nothing external acts: a constant strain, X(s) = X_start exp(s [e3; u_rest]). Exact.
-void placeUnloaded(const RestState& rest, RodElement& element);
+// Starts the passes from the unloaded shape under a constant moment.
+void resetGuess(RodElement& element);
 
-// Integrates the element from its start values by Lie collocation of order 2 kStages: rotation vectors at the nodes,
-// fixed-point passes from the values already there (call resetGuess first when there are none). Returns false if the
-// passes do not converge: the element is too long for its load or curvature.
-bool integrate(const RestState& rest, RodElement& element);
+// Largest size (norm of all Cayley vectors) at which an element is still trusted: about 2.4 rad between its ends.
+double largestSize(int stages);
 
-// Starts the passes of integrate() from the unloaded shape under a constant moment.
-void resetGuess(const RestState& rest, RodElement& element);
+// Integrates the element from its start values by fixed-point passes from the guess that it holds. Order 2 stages.
+// Returns false if the passes do not converge: the element is too long for its load or curvature.
+bool integrate(const ElementPasses& passes, RodElement& element);
 
-// Derivatives of a section's state with respect to six parameters (columns): rotation phi (rad, base axes, R changes
-// by hat(phi) R), position p and moment m; n changes by `n`, the same all along the rod.
-struct StateColumns {
-  Matrix3X6 phi = Matrix3X6::Zero();
-  Matrix3X6 p = Matrix3X6::Zero();
-  Matrix3X6 m = Matrix3X6::Zero();
-  Matrix3X6 n = Matrix3X6::Zero();
-};
+// Starts the passes over the columns from those at the start.
+void resetColumns(const ElementColumns& start, ElementState& state);
 
-// Carries columns from the start to the end of an integrated element by collocation of the linearised rod
-//   phi' = R c_bt R^T (dm - phi x m),  dp' = phi x p' + R c_se R^T (dn - phi x n),  dm' = -dp' x n - p' x dn.
-// Dead loads only.
-void propagate(const RestState& rest, const RodElement& element, StateColumns& columns);
+// Carries columns from the start to the end of an integrated element, by passes from the guess it holds until they
+// change by less than `goal`, relative:
+//   phi' = R c_bt R^T (dm - phi x m),  dp' = phi x p' + R c_se R^T (dn - phi x n),  dm' = -dp' x n - p' x dn,
+// dn the unit force of columns 3 to 5. Dead loads only. Returns the last change, or infinity without convergence.
+double propagate(const ElementPasses& passes, RodElement& element, const ElementColumns& start, double goal,
+                 ElementColumns& end);
+
+// One part (phi, p or m) of columns as a 3x6 matrix.
+inline Eigen::Map<Matrix3X6> columnsOf(double (&part)[6][3]) { return Eigen::Map<Matrix3X6>(&part[0][0]); }
+inline Eigen::Map<const Matrix3X6> columnsOf(const double (&part)[6][3]) {
+  return Eigen::Map<const Matrix3X6>(&part[0][0]);
+}
 
 }  // namespace live_stiffness

@@ -5,20 +5,28 @@
 
 namespace live_stiffness {
 
-// Force at the base of the chain, everything beyond it: tip force and all weights, N, base axes.
-Vector3 baseForce(const Scene& scene, const DeadLoads& loads);
+// What one pass over all elements, from base to tip, leaves.
+struct Sweep {
+  Vector3 residual;     // moment at T that nothing balances, N m, base axes
+  double change = 0.0;  // largest change of an element
+  bool sound = false;   // finite, and no element bent too far
+};
 
-// Weight per stretched length of a segment, N/m, base axes.
-Vector3 lineLoad(const Segment& segment, const RestState& rest, const DeadLoads& loads);
+// Gives the elements (as many as element_count says) their lengths, sections and loads, and lets the guess that they
+// hold follow the change of rest curvature; once before sweeps.
+void prepare(const Chain& chain, const DeadLoads& loads, Backbone& backbone);
 
-// Integrates backbone.elements (as many as element_count says) from the base to T under a base moment (N m, base
-// axes). residual: moment at T that nothing balances, N m. nodes_hold_guess: the elements hold a solution nearby.
-// False if an element does not converge or the residual is not finite; the nodes then hold no guess.
-bool shoot(const Scene& scene, const DeadLoads& loads, const Vector3& base_moment, bool nodes_hold_guess,
-           Backbone& backbone, Vector3& residual);
+// One pass over all elements under a base moment. finish: fills the shape and X_BT, too.
+Sweep sweep(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, bool finish, Backbone& backbone);
 
-// Derivatives of the state at T with respect to [base moment, tip force] (columns), after a shot. Their .m is that of
-// the residual.
-StateColumns tipColumns(const Scene& scene, const DeadLoads& loads, const Backbone& backbone);
+// Sweeps until the shape has converged to rounding. False if it does not, or is not sound.
+bool shoot(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, Backbone& backbone,
+           Vector3& residual);
+
+// Derivatives of the state at T with respect to [base moment, tip force] (columns), after a finished sweep; their m is
+// that of the residual. Elements keep their columns as guess unless `fresh`. Returns the largest relative change of the last
+// pass over an element, infinity if one did not converge to `goal`.
+double tipColumns(const Chain& chain, const DeadLoads& loads, bool fresh, double goal, Backbone& backbone,
+                  ElementColumns& columns);
 
 }  // namespace live_stiffness

@@ -45,10 +45,19 @@ class SectionMoments {
   double area(double stretch) const { return tube_area_ / stretch - chamber_area_; }  // m^2
 
   // Tensor of second moments of area at a stretch in section axes, m^4: bending moment = E I curvature.
-  Eigen::Matrix2d secondMoments(double stretch) const;
+  Eigen::Matrix2d secondMoments(double stretch) const {
+    const double shrink = 1.0 / stretch;
+    Eigen::Matrix2d moments = chamber_spread_ * -shrink;
+    moments.diagonal().array() += tube_moment_ * shrink * shrink - chamber_moment_;
+    return moments;
+  }
 
   // True if A(lam) and I(lam) are positive, that is, if c(lam) exists. False for NaN.
-  bool isValidAt(double stretch) const;
+  bool isValidAt(double stretch) const {
+    if (!(stretch > 0.0) || !(area(stretch) > 0.0)) return false;
+    const Eigen::Matrix2d moments = secondMoments(stretch);
+    return moments.trace() > 0.0 && moments.determinant() > 0.0;
+  }
 
   // c(lam). Requires isValidAt(stretch).
   ComplianceDensity complianceDensity(double stretch) const;

@@ -25,7 +25,26 @@ struct RestState {
 // A quotient within 1e-9 of a whole number counts as that number, so that 1.2 bar printed and read back stays 8 steps.
 int stepCount(double largest_pressure, double pressure_step);
 
-// Rest state of a segment. pressures: gauge, Pa, one per chamber. steps: used by kFixedStep only.
+// Load stepping of one segment, with what it needs of the section worked out once.
+class LoadStepper {
+ public:
+  explicit LoadStepper(const CrossSection& section);
+
+  int chamberCount() const { return static_cast<int>(wrench_of_pressures_.cols()); }
+
+  // Rest state under gauge pressures, Pa, one per chamber. steps: used by kFixedStep only.
+  RestState restState(PressuresRef pressures, Stepping stepping, int steps) const;
+
+ private:
+  RestState fixedSteps(double force, const Eigen::Vector2d& moment, int steps) const;
+  RestState linearStep(double force, const Eigen::Vector2d& moment) const;
+  RestState continuousSteps(double force, const Eigen::Vector2d& moment) const;
+
+  SectionMoments section_;
+  Eigen::Matrix3Xd wrench_of_pressures_;  // rows F_P (along e3), T_P x and y at stretch 1; one column per chamber
+};
+
+// The same in one call.
 RestState restState(const CrossSection& section, PressuresRef pressures, Stepping stepping, int steps);
 
 }  // namespace live_stiffness

@@ -1,0 +1,78 @@
+#pragma once
+// One element of rod as plain data: no Eigen and no class, because it crosses the border to code that is compiled for
+// another instruction set. Rows hold one value per Gauss node and then one for the element's end; matrices are
+// row-major, symmetric ones xx xy xz yy yz zz; axes are those of B unless said.
+
+#include "live_stiffness/gauss_legendre.h"
+
+namespace live_stiffness {
+
+constexpr int kMinStages = 2;
+constexpr int kMaxStages = 7;
+typedef double StageRow[kMaxStages + 1] __attribute__((aligned(64)));
+
+// A symmetric 6x6 compliance in 21 numbers: linear block (symmetric), upper right block (3x3), angular block.
+constexpr int kPackedSize = 21;
+
+struct ElementState {
+  // Set by the caller.
+  double length;                              // stretched, m; negative: from tip towards base
+  double R_start[9];                          // orientation of its first section
+  double n_start[3];                          // N, external loads of everything beyond
+  double m_start[3];                          // N m
+  double line_load[3];                        // w, N/m
+  double follower_load[3];                    // f, N/m, body axes
+  bool follows;                               // follower_load is not zero
+  double shear, elongation;                   // c_se = diag(shear, shear, elongation), 1/N
+  double bend_xx, bend_xy, bend_yy, torsion;  // c_bt, 1/(N m^2)
+  double rest_curvature[3];                   // u_rest, 1/m, body axes
+
+  // Unknown and guess: Cayley vectors g from the first section to the nodes, R = R_start cayley(g); and their rates,
+  // without that at the end.
+  StageRow g[3], g_rate[3];
+
+  // Result of the last pass.
+  double R_end[9], n_end[3], m_end[3];
+  double change;      // norm of the change of all g in it
+  double size;        // norm of all g, before it
+  double truncation;  // size of the highest Legendre coefficient of length * g', or what the one below lets expect
+
+  // Shape at the nodes, filled by finish(); offsets by place_unloaded(), too.
+  StageRow R[9], tangent[3], offset[3];  // orientation, p', position from the start (m)
+  StageRow n[3], m[3];
+  double offset_end[3];
+
+  // Linearised rod at the nodes, filled by linearise(): length times B, D, M and P of columns' rates.
+  StageRow bend[6], phi_of_phi[9], m_of_phi[9], p_of_phi[9];
+  double stretch[6];  // integral of S = R c_se R^T, symmetric
+
+  // Columns at the nodes and the end, and rotation at the start; kept as guess for the next solve.
+  StageRow phi[6][3], dm[6][3];
+  double phi_start[6][3];
+  double column_change;  // of the last pass, relative
+
+  // Filled by material(), on a Gauss grid of its own: densities of compliance about the element's start, tangents;
+  // Legendre coefficients of g_rate; integral of the densities.
+  NodeRow density[kPackedSize], dense_tangent[3];
+  double g_rate_series[kMaxStages][3];
+  double compliance[kPackedSize];
+};
+
+// Derivatives of a section's state with respect to [base moment, tip force]: rotation phi (rad, R changes by
+// hat(phi) R), position and moment. The first index is the column.
+struct ElementColumns {
+  double phi[6][3], p[6][3], m[6][3];
+};
+
+// Sections inside one element, a batch at a time.
+constexpr int kStationBatch = 4;
+typedef double StationRow[kStationBatch] __attribute__((aligned(32)));
+struct StationBatch {
+  StationRow fraction;                   // set by the caller: of the element's length, 0 to 1
+  double start_compliance[kPackedSize];  // set by the caller: of everything before the element, about its start
+  StationRow R[9];                       // orientation in B
+  StationRow offset[3];                  // from the element's start, m
+  StationRow compliance[kPackedSize];    // of everything before the section, about it
+};
+
+}  // namespace live_stiffness
