@@ -189,3 +189,25 @@ def drift(rows, folder):
         ax.set_ylabel(label)
     legend_above(figure, axes, 3)
     save(figure, folder, "drift")
+
+
+def orthonormality(rows, folder):
+    figure, axes = plt.subplots(1, 2, figsize=(9.2, 3.2), sharey=True, layout="constrained")
+    labels = {"rk4_figure_17": "RK4, linear, no weight (Fig. 17)", "rk4_ncm": "RK4, nonlinear, weight",
+              "live_stiffness": "this library"}
+    for method, label in labels.items():
+        line = [row for row in rows if row["method"] == method]
+        tip = [row for row in line if row["fraction"] == 1.0]
+        if len(tip) > 1:
+            axes[0].plot([row["elements"] for row in tip], [row["error"] for row in tip], label=label)
+        finest = max((row["elements"] for row in line), default=0)
+        along = [row for row in line if row["elements"] == finest]
+        axes[1].plot([row["fraction"] for row in along], [max(row["error"], 1e-17) for row in along], label=label,
+                     color="#c1121f" if method == "live_stiffness" else None)
+    for ax in axes:
+        ax.set_yscale("log")
+    axes[0].set_xlabel("elements")
+    axes[0].set_ylabel("orthonormality error (52)")
+    axes[1].set_xlabel("fraction of the arc length")
+    legend_above(figure, [axes[1]], 3)
+    save(figure, folder, "orthonormality")

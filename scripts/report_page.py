@@ -68,7 +68,7 @@ def quantiles(distribution):
 
 
 def hard_cases(data, folder):
-    """What hard_cases_report and drift_report found; empty when they were not run."""
+    """What hard_cases_report, drift_report and orthonormality_report found; empty when they were not run."""
     hard, draws, drift = read(data, "hard_cases"), read(data, "random_draws"), read(data, "drift")
     parts = []
 
@@ -98,6 +98,11 @@ def hard_cases(data, folder):
         parts.append(table(("policy", "threshold, Pa", "cycles", "tip, m", "curvature, 1/m"), [
             (policy, number(threshold, "%g"), number(row["cycle"], "%d"), number(row["tip_drift_m"]),
              number(row["curvature_drift_per_m"])) for (policy, threshold), row in ends.items()]))
+    rotations = read(data, "orthonormality")
+    if rotations:
+        figures.orthonormality(rotations, folder)
+        parts.append("## Fig. 17 of the paper\n\n![Orthonormality of rotations](figures/orthonormality.svg)\n\n*How "
+                     "far rotations are from orthonormal: at the tip against the number of elements, and along the rod.*")
     return "".join(part + "\n\n" for part in parts)
 
 

@@ -22,7 +22,8 @@ double errorBound(const MethodEntry& entry) {
   if (entry.family == "RK4 with sensitivities") return 0.2 / std::pow(n, 4);
   if (entry.family == "Magnus 4") return 8e-3 / std::pow(n, 4);
   if (entry.family == "Magnus 6") return 4e-4 / std::pow(n, 6);
-  if (entry.family == "library") return n;  // its accuracy
+  if (entry.family == "library by stages") return accuracyOfStages(static_cast<int>(n));
+  if (entry.family == "library" || entry.family == "library (plain x86-64)") return n;  // its accuracy
   return 0.0;
 }
 

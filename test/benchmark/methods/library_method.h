@@ -14,13 +14,14 @@ class LibraryMethod : public StiffnessMethod {
 
   MethodSolution solve(PressuresRef pressures) override;
   void reset() override { workspace_.reset(); }
-  const std::vector<Station>& stations() const { return stations_; }
+  // Of each segment, base to tip.
+  const std::vector<std::vector<Station>>& stations() const { return stations_; }
 
  private:
   StiffnessModel model_;
   StiffnessWorkspace workspace_;
-  std::vector<std::pair<int, double>> places_;  // segment and fraction of each station
-  std::vector<Station> stations_;
+  std::vector<std::vector<double>> fractions_;  // of each segment's stations
+  std::vector<std::vector<Station>> stations_;
 };
 
 }  // namespace live_stiffness

@@ -11,7 +11,7 @@ LoadedChain::LoadedChain(const Scene& scene, const ModelOptions& options) : opti
   const Vector3 gravity = scene.gravity.value_or(Vector3::Zero());
   for (const Body& body : scene.chain) {
     if (const auto* segment = std::get_if<Segment>(&body)) {
-      sections_.push_back({segment->section, segment->length, pieces_.size(), segment->mass() * gravity});
+      sections_.push_back({LoadStepper(segment->section), segment->length, pieces_.size(), segment->mass() * gravity});
       pieces_.push_back(SoftPiece{});
       weight_ += sections_.back().weight;
     } else {
@@ -31,8 +31,8 @@ bool LoadedChain::setPressures(PressuresRef pressures) {
   int first = 0;
   for (const Section& section : sections_) {
     SoftPiece& piece = std::get<SoftPiece>(pieces_[section.piece]);
-    const int count = section.section.chambers.count();
-    piece.rest = restState(section.section, pressures.segment(first, count), options_.stepping, steps);
+    const int count = section.stepper.chamberCount();
+    piece.rest = section.stepper.restState(pressures.segment(first, count), options_.stepping, steps);
     if (!piece.rest.valid) return false;
     piece.length = piece.rest.stretch * section.length;
     piece.line_load = section.weight / piece.length;

@@ -45,7 +45,7 @@ class LoadedChain {
   // Throws ConfigurationError for a scene without segments.
   explicit LoadedChain(const Scene& scene, const ModelOptions& options = {});
 
-  // Load stepping as in the library (its restState). False if a section gets out of range.
+  // Load stepping as in the library (its LoadStepper). False if a section gets out of range.
   bool setPressures(PressuresRef pressures);
 
   const std::vector<std::variant<SoftPiece, RigidPiece>>& pieces() const { return pieces_; }
@@ -59,7 +59,7 @@ class LoadedChain {
 
  private:
   struct Section {
-    CrossSection section;
+    LoadStepper stepper;
     double length;  // unstretched, m
     size_t piece;
     Vector3 weight;  // of the whole segment, N

@@ -26,6 +26,11 @@ MethodEntry library(const std::string& family, const std::string& variant, doubl
 
 }  // namespace
 
+double accuracyOfStages(int stages) {
+  constexpr double kAccuracy[] = {1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10};  // of 2 to 7 stages
+  return kAccuracy[stages - kMinStages];
+}
+
 std::vector<MethodEntry> methodList() {
   std::vector<MethodEntry> list;
   list.push_back({"textbook", "N=100", 100, maker<Textbook>(100)});
@@ -43,11 +48,20 @@ std::vector<MethodEntry> methodList() {
     list.push_back({"Magnus 4", std::to_string(elements) + " el.", double(elements), maker<Magnus<2>>(elements)});
   for (int elements : {1, 2, 4, 8})
     list.push_back({"Magnus 6", std::to_string(elements) + " el.", double(elements), maker<Magnus<3>>(elements)});
-  for (double accuracy : {1e-3, 1e-6, 1e-9}) {
+  for (int stages = kMinStages; stages <= kMaxStages; ++stages) {
     ModelOptions options;
-    options.accuracy = accuracy;
-    list.push_back(library("library", "accuracy " + numberText(accuracy), accuracy, options));
+    options.stages = stages;
+    options.accuracy = accuracyOfStages(stages);
+    list.push_back(library("library by stages", std::to_string(stages) + " stages", stages, options));
   }
+  for (const auto simd : {Simd::kBest, Simd::kBaseline})
+    for (double accuracy : {1e-3, 1e-6, 1e-9}) {
+      ModelOptions options;
+      options.accuracy = accuracy;
+      options.simd = simd;
+      list.push_back(library(simd == Simd::kBest ? "library" : "library (plain x86-64)",
+                             "accuracy " + numberText(accuracy), accuracy, options));
+    }
   return list;
 }
 

@@ -19,4 +19,8 @@ struct MethodEntry {
 
 std::vector<MethodEntry> methodList();
 
+// What "library by stages" is asked for with that many stages: about what one element then gives, since the accuracy
+// also decides where the solver stops.
+double accuracyOfStages(int stages);
+
 }  // namespace live_stiffness
