@@ -52,21 +52,22 @@ def legend_above(figure, axes, columns):
                   ncol=columns, columnspacing=1.4, handletextpad=0.5)
 
 
-def label_points(ax, members, colour):
+def label_points(ax, members, colour, left):
     """Accuracy or stages beside each point; points that lie on one another share a label."""
     spots = []
     for row in members:
-        text = row["variant"].replace("accuracy ", "").replace("e-0", "e-")
+        text = row["variant"].replace("accuracy 0.001", "1e-3").replace("accuracy ", "").replace("e-0", "e-")
+        text = text.replace(" stages", "")
         time, error = row["median_us"], largest_error(row)
         for spot in spots:
-            if abs(math.log(time / spot[0])) < 0.5 and abs(math.log(error / spot[1])) < 3.0:
+            if abs(math.log(time / spot[0])) < 0.5 and abs(math.log(error / spot[1])) < 1.5:
                 spot[2].append(text)
                 break
         else:
             spots.append((time, error, [text]))
     for time, error, texts in spots:
-        ax.annotate(", ".join(texts), (time, error), fontsize=7, color=colour, xytext=(-5, -3),
-                    textcoords="offset points", ha="right", va="top")
+        ax.annotate(", ".join(texts), (time, error), fontsize=7, color=colour, xytext=(-6, 0) if left else (6, 1),
+                    textcoords="offset points", ha="right" if left else "left", va="center")
 
 
 def error_against_time(rows, start, folder):
@@ -85,7 +86,7 @@ def error_against_time(rows, start, folder):
             ax.plot([row["median_us"] for row in members], [largest_error(row) for row in members], color=colour,
                     marker=marker, linewidth=width, markersize=6, label=family, zorder=4 if "library" in family else 3)
             if family in ("library", "library by stages"):
-                label_points(ax, members, colour)
+                label_points(ax, members, colour, left=family != "library")
         ax.set_title("%s, %s" % ("one segment" if segments == 1 else "two segments",
                                  "gravity" if gravity else "nothing external"), fontsize=10)
         ax.set_xscale("log")
@@ -110,11 +111,12 @@ def histogram(bins, summary, folder):
     ax.set_xscale("log")
     ax.set_yscale("log")
     top = max(row["count"] for row in bins)
-    ax.set_ylim(0.7, 6 * top)
-    for key, label in (("median_us", "median"), ("p99_us", "99 %"), ("p999_us", "99.9 %")):
+    ax.set_ylim(0.7, 80 * top)
+    for key, label, height in (("median_us", "median", 60 * top), ("p99_us", "99 %", 20 * top),
+                               ("p999_us", "99.9 %", 60 * top)):
         ax.axvline(summary[key], color="#222222", linewidth=0.8, linestyle="--")
         time = "%.3g" % summary[key] if summary[key] < 1000 else "%.0f" % summary[key]
-        ax.text(summary[key], 4.5 * top, " %s\n %s us" % (label, time), va="top", fontsize=8)
+        ax.text(summary[key], height, " %s: %s us" % (label, time), va="top", fontsize=8)
     ax.set_xlabel("time of one update, us")
     ax.set_ylabel("updates")
     save(figure, folder, "update_times")

@@ -102,7 +102,7 @@ def hard_cases(data, folder):
     if rotations:
         figures.orthonormality(rotations, folder)
         parts.append("## Fig. 17 of the paper\n\n![Orthonormality of rotations](figures/orthonormality.svg)\n\n*How "
-                     "far rotations are from orthonormal: at the tip against the number of elements, and along the rod.*")
+                     "far rotations are from orthonormal: at the tip over the number of elements, and along the rod.*")
     return "".join(part + "\n\n" for part in parts)
 
 
@@ -114,7 +114,7 @@ def main():
     distribution = {row["which"]: row for row in read(data, "distribution_summary")}
     for start in ("warm", "cold"):
         figures.error_against_time(rows, start, folder)
-    figures.histogram(read(data, "distribution"), distribution["all"], folder)
+    figures.histogram(read(data, "distribution"), distribution["updates"], folder)
     figures.against_segments(segments, folder)
     figures.against_elements(rows, folder)
     figures.estimates(read(data, "estimates"), folder)
@@ -134,8 +134,9 @@ def main():
         tuned_ratio="%.0f" % (tuned["median_us"] / fast["median_us"]),
         library_error=small(fast["tangent_max"]), common_error=small(common["tangent_max"]),
         textbook_us=us(method(rows, "textbook")["median_us"]), all_methods=all_methods(rows),
-        updates="%d" % distribution["all"]["updates"], quantiles=quantiles(distribution),
-        preemptions="%d" % distribution["all"]["preemptions"],
+        updates="%d" % distribution["updates"]["updates"], quantiles=quantiles(distribution),
+        preemptions="%d" % distribution["updates"]["preemptions"],
+        loop_preemptions="%d" % distribution["loops"]["preemptions"],
         stations=table(["accuracy", "5 stations", "25 stations"],
                        [["%g" % accuracy] + [us(row["median_us"]) for row in stations if row["accuracy"] == accuracy]
                         for accuracy in report_targets.TIMES]),

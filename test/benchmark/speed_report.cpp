@@ -144,40 +144,70 @@ void writeQuantiles(CsvFile& csv, const std::string& which, std::vector<float>& 
           p999 / median);
 }
 
-// One clock reading an update: its 45 ns are part of every time. Updates come in blocks of 50; a block in which the
-// kernel took the processor away is left out of the second row of the summary, which so shows the solver alone.
-void reportDistribution(const std::string& folder, const Effort& effort) {
-  constexpr int kBlock = 50;
-  const std::vector<Pressures> path = pressurePath(1);
-  TimedMethod timed(std::make_unique<LibraryMethod>("library", paperScene(1), accurateTo(1e-6)), path, false);
-  for (int i = 0; i < 1000; ++i) timed.update();
+// Times of single calls, us. They come in blocks of 50; blocks in which the kernel took the processor away are left out
+// of `undisturbed`.
+struct SingleTimes {
   std::vector<float> all, undisturbed;
-  all.reserve(effort.distribution_updates);
-  undisturbed.reserve(effort.distribution_updates);
-  const long preempted_before = preemptions();
-  const int blocks = effort.distribution_updates / kBlock;
+  long preempted = 0;
+};
+
+// One clock reading a call: its 45 ns are part of every time.
+template <class Work>
+SingleTimes timeOneByOne(const std::string& what, int count, Work work) {
+  constexpr int kBlock = 50;
+  SingleTimes times;
+  times.all.reserve(count);
+  times.undisturbed.reserve(count);
+  const int blocks = count / kBlock;
   for (int block = 0; block < blocks; ++block) {
-    if (block % (blocks / 5) == 0) progress("distribution: " + std::to_string(block * kBlock) + " updates");
+    if (block % (blocks / 5) == 0) progress(what + ": " + std::to_string(block * kBlock));
     const long preempted = preemptions();
     double before = clockSeconds();
     for (int i = 0; i < kBlock; ++i) {
-      timed.update();
+      work();
       const double after = clockSeconds();
-      all.push_back(static_cast<float>(1e6 * (after - before)));
+      times.all.push_back(static_cast<float>(1e6 * (after - before)));
       before = after;
     }
-    if (preemptions() == preempted) undisturbed.insert(undisturbed.end(), all.end() - kBlock, all.end());
+    const long taken_away = preemptions() - preempted;
+    times.preempted += taken_away;
+    if (taken_away == 0)
+      times.undisturbed.insert(times.undisturbed.end(), times.all.end() - kBlock, times.all.end());
   }
+  return times;
+}
+
+// Beside the updates a loop that always does the same and takes as long: its tail is the machine's, not the solver's.
+void reportDistribution(const std::string& folder, const Effort& effort) {
+  const std::vector<Pressures> path = pressurePath(1);
+  TimedMethod timed(std::make_unique<LibraryMethod>("library", paperScene(1), accurateTo(1e-6)), path, false);
+  for (int i = 0; i < 1000; ++i) timed.update();
+  SingleTimes updates = timeOneByOne("single updates", effort.distribution_updates, [&] { timed.update(); });
   CsvFile csv(folder, "distribution.csv", "from_us,to_us,count");
   constexpr double kBinsPerDecade = 50.0;
   std::map<int, long> bins;
-  for (float time : all) ++bins[static_cast<int>(std::floor(kBinsPerDecade * std::log10(time)))];
+  for (float time : updates.all) ++bins[static_cast<int>(std::floor(kBinsPerDecade * std::log10(time)))];
   for (const auto& [bin, count] : bins)
     csv.row(std::pow(10.0, bin / kBinsPerDecade), std::pow(10.0, (bin + 1) / kBinsPerDecade), count);
+
+  volatile double kept = 1.0;
+  const auto loop = [&](int rounds) {
+    double x = kept;
+    for (int i = 0; i < rounds; ++i) x = 0.5 * x + 0.5;
+    kept = x;
+  };
+  constexpr int kTrialRounds = 10000;
+  SingleTimes trial = timeOneByOne("trial loops", 1000, [&] { loop(kTrialRounds); });
+  const double median = quantile(updates.all, 0.5);
+  const int rounds = static_cast<int>(kTrialRounds * median / quantile(trial.all, 0.5));
+  SingleTimes loops = timeOneByOne("loops", effort.distribution_updates, [&] { loop(rounds); });
+
   CsvFile summary(folder, "distribution_summary.csv",
                   "which,updates,preemptions,median_us,p90_us,p99_us,p999_us,max_us,p99_over_median,p999_over_median");
-  writeQuantiles(summary, "all", all, preemptions() - preempted_before);
-  writeQuantiles(summary, "not preempted", undisturbed, 0);
+  writeQuantiles(summary, "updates", updates.all, updates.preempted);
+  writeQuantiles(summary, "updates not preempted", updates.undisturbed, 0);
+  writeQuantiles(summary, "loops", loops.all, loops.preempted);
+  writeQuantiles(summary, "loops not preempted", loops.undisturbed, 0);
 }
 
 void reportEstimates(const std::string& folder, const Effort& effort) {
