@@ -85,8 +85,8 @@ def error_against_time(rows, start, folder):
             members = sorted(members, key=lambda row: row["median_us"])
             ax.plot([row["median_us"] for row in members], [largest_error(row) for row in members], color=colour,
                     marker=marker, linewidth=width, markersize=6, label=family, zorder=4 if "library" in family else 3)
-            if family in ("library", "library by stages"):
-                label_points(ax, members, colour, left=family != "library")
+            if family in ("library (plain x86-64)", "library by stages"):
+                label_points(ax, members, colour, left=family == "library by stages")
         ax.set_title("%s, %s" % ("one segment" if segments == 1 else "two segments",
                                  "gravity" if gravity else "nothing external"), fontsize=10)
         ax.set_xscale("log")
@@ -105,12 +105,16 @@ def error_against_time(rows, start, folder):
 
 def histogram(bins, summary, folder):
     figure, ax = plt.subplots(figsize=(7.5, 3.4), layout="constrained")
-    left = [row["from_us"] for row in bins]
-    ax.bar(left, [row["count"] for row in bins], width=[row["to_us"] - row["from_us"] for row in bins], align="edge",
-           color="#c1121f")
+    updates = [row for row in bins if row["which"] == "updates"]
+    loops = [row for row in bins if row["which"] == "loops"]
+    ax.bar([row["from_us"] for row in updates], [row["count"] for row in updates],
+           width=[row["to_us"] - row["from_us"] for row in updates], align="edge", color="#c1121f", label="updates")
+    ax.plot([row["from_us"] for row in loops], [row["count"] for row in loops], drawstyle="steps-post", color="#222222",
+            linewidth=0.9, label="a fixed loop as long: the machine's own tail")
+    ax.legend(loc="center right")
     ax.set_xscale("log")
     ax.set_yscale("log")
-    top = max(row["count"] for row in bins)
+    top = max(row["count"] for row in updates)
     ax.set_ylim(0.7, 80 * top)
     for key, label, height in (("median_us", "median", 60 * top), ("p99_us", "99 %", 20 * top),
                                ("p999_us", "99.9 %", 60 * top)):

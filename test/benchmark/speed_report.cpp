@@ -4,7 +4,8 @@
 //   methods.csv        every method, one and two segments, with and without gravity, cold and warm
 //   stations.csv       the library with 5 and 25 stations of material compliance
 //   segments.csv       cost against the number of segments
-//   distribution.csv   histogram of single warm updates, accuracy 1e-6; distribution_summary.csv: its quantiles
+//   distribution.csv   histograms of single warm updates (accuracy 1e-6) and of a fixed loop as long;
+//                      distribution_summary.csv: quantiles
 //   estimates.csv      error estimate against true error over random scenes; estimate_summary.csv: shares
 //   build.csv          compiler and flags
 
@@ -177,19 +178,20 @@ SingleTimes timeOneByOne(const std::string& what, int count, Work work) {
   return times;
 }
 
+void writeBins(CsvFile& csv, const std::string& which, const std::vector<float>& us) {
+  constexpr double kBinsPerDecade = 50.0;
+  std::map<int, long> bins;
+  for (float time : us) ++bins[static_cast<int>(std::floor(kBinsPerDecade * std::log10(time)))];
+  for (const auto& [bin, count] : bins)
+    csv.row(which, std::pow(10.0, bin / kBinsPerDecade), std::pow(10.0, (bin + 1) / kBinsPerDecade), count);
+}
+
 // Beside the updates a loop that always does the same and takes as long: its tail is the machine's, not the solver's.
 void reportDistribution(const std::string& folder, const Effort& effort) {
   const std::vector<Pressures> path = pressurePath(1);
   TimedMethod timed(std::make_unique<LibraryMethod>("library", paperScene(1), accurateTo(1e-6)), path, false);
   for (int i = 0; i < 1000; ++i) timed.update();
   SingleTimes updates = timeOneByOne("single updates", effort.distribution_updates, [&] { timed.update(); });
-  CsvFile csv(folder, "distribution.csv", "from_us,to_us,count");
-  constexpr double kBinsPerDecade = 50.0;
-  std::map<int, long> bins;
-  for (float time : updates.all) ++bins[static_cast<int>(std::floor(kBinsPerDecade * std::log10(time)))];
-  for (const auto& [bin, count] : bins)
-    csv.row(std::pow(10.0, bin / kBinsPerDecade), std::pow(10.0, (bin + 1) / kBinsPerDecade), count);
-
   volatile double kept = 1.0;
   const auto loop = [&](int rounds) {
     double x = kept;
@@ -202,6 +204,9 @@ void reportDistribution(const std::string& folder, const Effort& effort) {
   const int rounds = static_cast<int>(kTrialRounds * median / quantile(trial.all, 0.5));
   SingleTimes loops = timeOneByOne("loops", effort.distribution_updates, [&] { loop(rounds); });
 
+  CsvFile csv(folder, "distribution.csv", "which,from_us,to_us,count");
+  writeBins(csv, "updates", updates.all);
+  writeBins(csv, "loops", loops.all);
   CsvFile summary(folder, "distribution_summary.csv",
                   "which,updates,preemptions,median_us,p90_us,p99_us,p999_us,max_us,p99_over_median,p999_over_median");
   writeQuantiles(summary, "updates", updates.all, updates.preempted);
