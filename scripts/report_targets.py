@@ -1,0 +1,54 @@
+"""The goals of the project beside what was measured."""
+from report_data import largest_error, library, method, us, small
+
+# Relative error of pose and both compliances: us warm with AVX2, cold with AVX2, warm on plain x86-64.
+TIMES = {1e-3: (1.0, 2.5, 3.0), 1e-6: (2.5, 5.0, 8.0), 1e-9: (4.0, 8.0, 15.0)}
+
+
+def verdict(met):
+    return "met" if met else "**missed**"
+
+
+def by_accuracy(rows):
+    lines = []
+    for accuracy, times in TIMES.items():
+        measured = (library(rows, accuracy), library(rows, accuracy, start="cold"),
+                    library(rows, accuracy, family="library (plain x86-64)"))
+        for row, target, what in zip(measured, times, ("warm, AVX2", "cold, AVX2", "warm, plain x86-64")):
+            name = "error %g, %s" % (accuracy, what)
+            if row is None:
+                lines.append((name, "%g us" % target, "not measured", verdict(False)))
+                continue
+            error = largest_error(row)
+            lines.append((name, "%g us" % target, "%s us, error %s" % (us(row["median_us"]), small(error)),
+                          verdict(row["median_us"] <= target and error <= accuracy)))
+    return lines
+
+
+def others(rows, stations, distribution, shares):
+    lines = []
+
+    def add(name, target, measured, met):
+        lines.append((name, target, measured, verdict(met)))
+
+    fast = library(rows, 1e-6)
+    free = library(rows, 1e-6, gravity=0)
+    add("nothing external, closed form, warm", "0.3 us", us(free["median_us"]) + " us", free["median_us"] <= 0.3)
+    two = library(rows, 1e-6, segments=2)["median_us"] / fast["median_us"]
+    add("two segments with link, over one", "2.2", "%.2f" % two, two <= 2.2)
+    at = {row["stations"]: row["median_us"] for row in stations if row["accuracy"] == 1e-6}
+    add("20 more stations of compliance", "0.5 us", "%.2f us" % (at[25] - at[5]), at[25] - at[5] <= 0.5)
+    every, alone, loops = (distribution[which] for which in ("updates", "updates not preempted", "loops"))
+    for key, name, target in (("p99", "p99", 1.5), ("p999", "p99.9", 4.0)):
+        ratio = every[key + "_over_median"]
+        add("%s of %d single warm updates, over the median" % (name, every["updates"]), "%g" % target,
+            "%.2f (not preempted: %.2f; a fixed loop: %.2f)" % (
+                ratio, alone[key + "_over_median"], loops[key + "_over_median"]), ratio <= target)
+    for family, target in (("common practice", 150), ("textbook", 1000)):
+        ratio = method(rows, family)["median_us"] / fast["median_us"]
+        add("times faster than the %s, accuracy 1e-6, warm" % family, target, "%.0f" % ratio, ratio >= target)
+    for key, name, target in (("within_ten_estimates_share", "10 x the estimate", 0.999),
+                              ("within_requested_share", "the requested accuracy", 0.99)):
+        add("random scenes with error below " + name, "%.4g %%" % (100 * target),
+            "%.2f %% of %d" % (100 * shares[key], shares["solved"]), shares[key] >= target)
+    return lines

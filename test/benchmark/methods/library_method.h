@@ -1,0 +1,27 @@
+#pragma once
+// The library's own solver, with material compliance at stations spread evenly over the soft segments.
+
+#include "benchmark/methods/stiffness_method.h"
+#include "live_stiffness/compliance/stiffness_model.h"
+
+namespace live_stiffness {
+
+class LibraryMethod : public StiffnessMethod {
+ public:
+  static constexpr int kStations = 5;
+
+  LibraryMethod(std::string name, const Scene& scene, const ModelOptions& options, int stations = kStations);
+
+  MethodSolution solve(PressuresRef pressures) override;
+  void reset() override { workspace_.reset(); }
+  // Of each segment, base to tip.
+  const std::vector<std::vector<Station>>& stations() const { return stations_; }
+
+ private:
+  StiffnessModel model_;
+  StiffnessWorkspace workspace_;
+  std::vector<std::vector<double>> fractions_;  // of each segment's stations
+  std::vector<std::vector<Station>> stations_;
+};
+
+}  // namespace live_stiffness
