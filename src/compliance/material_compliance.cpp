@@ -1,6 +1,8 @@
 #include "live_stiffness/compliance/material_compliance.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstring>
 
 namespace live_stiffness {
 namespace {
@@ -49,7 +51,9 @@ void unpackLane(const RodElement& element, double stretch, const StationBatch& b
 
 // The station at the end of a piece of the element, integrated anew: slower, and as accurate as the tip.
 void stationOfPiece(const Backbone& backbone, const RodElement& element, double part, bool loaded, Station& station) {
-  RodElement piece = element;
+  RodElement piece;
+  piece.p_start = element.p_start;
+  std::memcpy(&piece.state, &element.state, offsetof(ElementState, R_end));  // what the caller sets, and the guess
   piece.state.length *= part;
   if (loaded) {
     for (StageRow& row : piece.state.g)
@@ -58,7 +62,7 @@ void stationOfPiece(const Backbone& backbone, const RodElement& element, double 
   } else {
     backbone.passes->place_unloaded(piece.state);
   }
-  backbone.passes->material(piece.state);
+  backbone.passes->material(piece.state, !loaded, true);
   Packed total;
   for (int i = 0; i < kPackedSize; ++i) total.at[i] = element.start_compliance[i] + piece.state.compliance[i];
   station.X_BS = piece.X_end();
@@ -68,11 +72,14 @@ void stationOfPiece(const Backbone& backbone, const RodElement& element, double 
 
 }  // namespace
 
-Matrix6 accumulateMaterial(Backbone& backbone) {
+Matrix6 accumulateMaterial(Backbone& backbone, double accuracy, bool loaded) {
+  constexpr double kImprovement = 20.0;
   Packed total;
   Vector3 about = Vector3::Zero();
   for (RodElement& element : backbone.elements) {
-    backbone.passes->material(element.state);
+    const bool improve = loaded && element.state.interior_error > accuracy;
+    backbone.passes->material(element.state, !loaded, improve);
+    if (improve) element.state.interior_error /= kImprovement;
     total.shift(element.p_start - about);
     std::copy_n(total.at, kPackedSize, element.start_compliance);
     for (int i = 0; i < kPackedSize; ++i) total.at[i] += element.state.compliance[i];
@@ -82,13 +89,12 @@ Matrix6 accumulateMaterial(Backbone& backbone) {
   return total.matrix();
 }
 
-void stationsAt(const Backbone& backbone, int segment, const std::vector<double>& fractions, double accuracy,
-                bool loaded, std::vector<Station>& out) {
+void stationsAt(const Backbone& backbone, int segment, const double* fractions, size_t size, double accuracy,
+                bool loaded, Station* out) {
   const int first = backbone.firstElement(segment), count = backbone.element_count[segment];
-  out.resize(fractions.size());
   const auto along = [&](size_t i) { return std::clamp(fractions[i], 0.0, 1.0) * count; };
   const auto elementOf = [&](size_t i) { return std::min(static_cast<int>(along(i)), count - 1); };
-  for (size_t i = 0; i < fractions.size();) {
+  for (size_t i = 0; i < size;) {
     const int k = elementOf(i);
     const RodElement& element = backbone.elements[first + k];
     const double part = along(i) - k;
@@ -100,7 +106,7 @@ void stationsAt(const Backbone& backbone, int segment, const std::vector<double>
     StationBatch batch;
     std::copy_n(element.start_compliance, kPackedSize, batch.start_compliance);
     int filled = 0;
-    while (filled < kStationBatch && i + filled < fractions.size() && elementOf(i + filled) == k) {
+    while (filled < kStationBatch && i + filled < size && elementOf(i + filled) == k) {
       batch.fraction[filled] = along(i + filled) - k;
       ++filled;
     }

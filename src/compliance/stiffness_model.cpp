@@ -84,7 +84,7 @@ StiffnessSolution StiffnessModel::solve(PressuresRef pressures, const Wrench& ti
   }
   solution.numerical_error += 1e-14;  // rounding
   solution.X_BT = backbone.X_BT;
-  solution.material_compliance = accumulateMaterial(backbone);
+  solution.material_compliance = accumulateMaterial(backbone, options_.accuracy, workspace.loaded_);
   // Without external load the two are the same matrix.
   solution.compliance = workspace.loaded_ ? workspace.statics_.tangentCompliance() : solution.material_compliance;
   if (!solution.X_BT.p.allFinite() || !solution.compliance.allFinite() || !solution.material_compliance.allFinite())
@@ -93,14 +93,16 @@ StiffnessSolution StiffnessModel::solve(PressuresRef pressures, const Wrench& ti
 }
 
 Station StiffnessModel::station(const StiffnessWorkspace& workspace, int segment, double fraction) const {
-  std::vector<Station> one;
-  stations(workspace, segment, {fraction}, one);
-  return one[0];
+  Station station;
+  stationsAt(workspace.backbone(), segment, &fraction, 1, options_.accuracy, workspace.loaded(), &station);
+  return station;
 }
 
 void StiffnessModel::stations(const StiffnessWorkspace& workspace, int segment, const std::vector<double>& fractions,
                               std::vector<Station>& out) const {
-  stationsAt(workspace.backbone(), segment, fractions, options_.accuracy, workspace.loaded(), out);
+  out.resize(fractions.size());
+  stationsAt(workspace.backbone(), segment, fractions.data(), fractions.size(), options_.accuracy, workspace.loaded(),
+             out.data());
 }
 
 std::string StiffnessModel::describe(const SolveStatus& status) const {

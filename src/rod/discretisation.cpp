@@ -21,6 +21,10 @@ double bendingOfAnElement(int stages, double accuracy) {
   return std::min(kMaxBending, kReach[stages] * std::pow(accuracy, 0.5 / stages));
 }
 
+int countOf(double demand, double bending) {
+  return static_cast<int>(std::clamp(std::ceil(demand / bending), 1.0, Backbone::kMaxElements / 2.0));
+}
+
 // Gauss collocation errs by the product of what two expansions leave out: the solution's own and that of its Green's
 // function, which is about alike. The factor covers 99.9 % of random cases within ten (docs/speed_against_error.md).
 double truncationOf(const RodElement& element) { return 16.0 * element.state.truncation * element.state.truncation; }
@@ -38,10 +42,21 @@ Discretisation::Discretisation(const Chain& chain, double accuracy, int stages)
   if (choices_.empty()) choices_.push_back({stages, 1.0, bendingOfAnElement(stages, accuracy)});
 }
 
-bool Discretisation::choose(const DeadLoads* loads, Backbone& backbone) {
+// The shape is exact whatever the stages; they decide how many nodes the sections between are read from.
+bool Discretisation::chooseUnloaded(Backbone& backbone) {
+  constexpr double kFewNodesAccuracy = 1e-7;
+  for (const Chain::Part& part : chain_.parts) {
+    if (part.segment < 0) continue;
+    const RestState& rest = backbone.rest[part.segment];
+    backbone.element_count[part.segment] = countOf(rest.stretch * part.length * rest.curvature.norm(), kMaxBending);
+  }
+  const int cheapest = accuracy_ >= kFewNodesAccuracy ? kChoices[0].stages : kMaxStages;
+  return backbone.resize(choices_.size() == 1 ? choices_[0].stages : cheapest);
+}
+
+bool Discretisation::choose(const DeadLoads& loads, Backbone& backbone) {
   constexpr double kBendingOfLoadNumber = 1.25;  // L sqrt(|n| c_bt) counts as so much bending
-  const double force = loads ? loads->baseForce(chain_).norm() : 0.0;
-  const double moment = loads ? angular(loads->tip).norm() : 0.0;
+  const double force = loads.baseForce(chain_).norm(), moment = angular(loads.tip).norm();
   for (const Chain::Part& part : chain_.parts) {
     if (part.segment < 0) continue;
     const RestState& rest = backbone.rest[part.segment];
@@ -51,21 +66,18 @@ bool Discretisation::choose(const DeadLoads* loads, Backbone& backbone) {
     const double load_number = length * std::sqrt(softness * force);
     demand_[part.segment] = std::max(bending, kBendingOfLoadNumber * load_number) * caution_[part.segment];
   }
-  const auto count = [&](int segment, double bending) {
-    return static_cast<int>(std::clamp(std::ceil(demand_[segment] / bending), 1.0, Backbone::kMaxElements / 2.0));
-  };
   const Choice* best = nullptr;
   double cheapest = std::numeric_limits<double>::infinity();
   for (const Choice& choice : choices_) {
     double cost = 0.0;
-    for (size_t k = 0; k < demand_.size(); ++k) cost += choice.cost * count(static_cast<int>(k), choice.bending);
+    for (double demand : demand_) cost += choice.cost * countOf(demand, choice.bending);
     if (cost < cheapest) {
       cheapest = cost;
       best = &choice;
     }
   }
   for (size_t k = 0; k < demand_.size(); ++k)
-    backbone.element_count[k] = count(static_cast<int>(k), best->bending);
+    backbone.element_count[k] = countOf(demand_[k], best->bending);
   return backbone.resize(best->stages);
 }
 

@@ -77,11 +77,7 @@ struct Passes {
     const Rows moment = integral(t, m_rate);
     for (int v = 0; v < kVectors; ++v) {
       const Lanes3 m = splat(m_start) + h * moment.at[v];
-      const Lanes3 mb = transposedTimes(R[v], m);
-      const Lanes3 u{e.rest_curvature[0] + e.bend_xx * mb.x + e.bend_xy * mb.y,
-                     e.rest_curvature[1] + e.bend_xy * mb.x + e.bend_yy * mb.y,
-                     e.rest_curvature[2] + e.torsion * mb.z};
-      store(e.g_rate, v, cayleyRate(load(e.g, v), u));
+      store(e.g_rate, v, cayleyRate(load(e.g, v), curvatureOf(e, R[v], m)));
       store(m_rows, v, m);
     }
     const Rows next = integral(t, e.g_rate);
@@ -108,6 +104,12 @@ struct Passes {
     for (int v = 0; v < kVectors; ++v) store(e.offset, v, h * offset.at[v]);
     for (int i = 0; i < 3; ++i) e.offset_end[i] = e.offset[i][kStages];
     estimateTruncation(e, t);
+  }
+
+  static LIVE_STIFFNESS_INLINE Lanes3 curvatureOf(const ElementState& e, const LanesMatrix& R, Lanes3 m) {
+    const Lanes3 b = transposedTimes(R, m);
+    return {e.rest_curvature[0] + e.bend_xx * b.x + e.bend_xy * b.y,
+            e.rest_curvature[1] + e.bend_xy * b.x + e.bend_yy * b.y, e.rest_curvature[2] + e.torsion * b.z};
   }
 
   static LIVE_STIFFNESS_INLINE Lanes3 tangentOf(const ElementState& e, Lanes3 z, Lanes3 n) {
@@ -180,19 +182,24 @@ struct Passes {
     return value;
   }
 
+  // 2 tan(|w| / 2) along w: the Cayley vector of the rotation vector w, |w| up to kMaxUnloadedBending.
+  static LIVE_STIFFNESS_INLINE Lanes3 cayleyOfRotation(Lanes3 w) {
+    const Lanes x = dot(w, w);
+    return (2.0 * series(kSine, x) / (2.0 - x * series(kCosine, x))) * w;
+  }
+
   static void placeUnloaded(ElementState& e) {
     const GaussLegendre& t = tables().stages;
     const Lanes3 u = splat(e.rest_curvature);
     const LanesMatrix R_start = splatMatrix(e.R_start);
     for (int v = 0; v < kVectors; ++v) {
       const Lanes s = splat(e.length) * load(t.c, v);
-      const Lanes3 w = s * u;
-      const Lanes x = dot(w, w), b = series(kCosine, x);
-      const Lanes3 g = (2.0 * series(kSine, x) / (2.0 - x * b)) * w;  // 2 tan(|w| / 2) along w
+      const Lanes3 w = s * u, turn{w.y, -w.x, Lanes{}};  // turn: w x e3
+      const Lanes3 g = cayleyOfRotation(w);
       store(e.g, v, g);
       store(e.g_rate, v, cayleyRate(g, u));
-      const Lanes3 turn{w.y, -w.x, Lanes{}};  // w x e3
-      const Lanes3 bend = b * turn + series(kThird, x) * cross(w, turn);
+      const Lanes x = dot(w, w);
+      const Lanes3 bend = series(kCosine, x) * turn + series(kThird, x) * cross(w, turn);
       store(e.offset, v, s * (R_start * Lanes3{bend.x, bend.y, 1.0 + bend.z}));
     }
     endRotation(e);
@@ -200,8 +207,13 @@ struct Passes {
       e.offset_end[i] = e.offset[i][kStages];
       e.n_end[i] = e.m_end[i] = 0.0;
     }
-    e.change = 0.0;
-    estimateTruncation(e, t);
+    e.change = e.truncation = 0.0;
+    // First Legendre coefficient that the dense nodes miss of what turns twice as fast as the rod.
+    const double* k = e.rest_curvature;
+    const double half = e.length * e.length * (k[0] * k[0] + k[1] * k[1] + k[2] * k[2]);
+    e.interior_error = 1.0;
+    for (int i = 1; i <= kDense; ++i) e.interior_error /= 2 * i + 1;
+    for (int i = 0; i < kDense; i += 2) e.interior_error *= half;
   }
 
   // R c R^T of both densities, using that R^T R = I: bend = yy I + (xx - yy) x x^T + ... + (torsion - yy) z z^T.
@@ -301,22 +313,79 @@ struct Passes {
     }
   }
 
-  // On the dense nodes: with r from the start to the node, [S - K hat(r), K; K^T, B], K = hat(r) B, integrand of (10).
-  // Collocation carries g there; what is made of g varies faster than g itself, hence the finer grid.
-  static void material(ElementState& e) {
+  static LIVE_STIFFNESS_INLINE Lanes3 denseIntegral(const GaussLegendre& t, const NodeRow (&f)[3], int v) {
+    Lanes3 sum{};
+#pragma GCC unroll 12
+    for (int j = 0; j < kDense; ++j) {
+      const Lanes a = load(t.a[j], v);
+      sum.x += a * f[0][j], sum.y += a * f[1][j], sum.z += a * f[2][j];
+    }
+    return sum;
+  }
+
+  // Cayley vectors at the dense nodes: closed, or from collocation, by its polynomial and, if `improve`, by one more
+  // pass on the dense nodes. Leaves the Legendre series of their rate.
+  static LIVE_STIFFNESS_INLINE void denseVectors(ElementState& e, bool unloaded, bool improve, Lanes3 (&g)[kDenseVectors]) {
     const Tables& tables = Passes::tables();
     const GaussLegendre& t = tables.dense;
     const Lanes h = splat(e.length);
+    if (unloaded) {
+      for (int v = 0; v < kDenseVectors; ++v) g[v] = cayleyOfRotation((h * load(t.c, v)) * splat(e.rest_curvature));
+      return;
+    }
+    for (int v = 0; v < kDenseVectors; ++v) {
+      g[v] = Lanes3{};
+      for (int j = 0; j < kStages; ++j) {
+        const Lanes a = h * load(tables.to_dense.integral[j], v);
+        g[v].x += a * e.g_rate[0][j], g[v].y += a * e.g_rate[1][j], g[v].z += a * e.g_rate[2][j];
+      }
+    }
+    if (improve) {
+      double n_start[3], m_start[3], line_load[3];
+      rotateBack(e.R_start, e.n_start, n_start);
+      rotateBack(e.R_start, e.m_start, m_start);
+      rotateBack(e.R_start, e.line_load, line_load);
+      NodeRow rate[3];
+      LanesMatrix R[kDenseVectors];
+      for (int v = 0; v < kDenseVectors; ++v) {
+        R[v] = cayley(g[v]);
+        const Lanes3 n = splat(n_start) - (h * load(t.c, v)) * splat(line_load);
+        store(rate, v, cross(n, tangentOf(e, R[v].z, n)));
+      }
+      Lanes3 u[kDenseVectors];
+      for (int v = 0; v < kDenseVectors; ++v)
+        u[v] = curvatureOf(e, R[v], splat(m_start) + h * denseIntegral(t, rate, v));
+      for (int v = 0; v < kDenseVectors; ++v) store(rate, v, cayleyRate(g[v], u[v]));
+      for (int v = 0; v < kDenseVectors; ++v) g[v] = h * denseIntegral(t, rate, v);
+      fillSeries(e, t, kDense, rate);
+    } else {
+      fillSeries(e, tables.stages, kStages, e.g_rate);
+    }
+  }
+
+  template <class Row>
+  static LIVE_STIFFNESS_INLINE void fillSeries(ElementState& e, const GaussLegendre& t, int nodes, const Row (&rate)[3]) {
+    for (int k = 0; k < kDense; ++k)
+      for (int i = 0; i < 3; ++i) {
+        double coefficient = 0.0;
+        for (int j = 0; j < nodes; ++j) coefficient += t.legendre[k][j] * rate[i][j];
+        e.g_rate_series[k][i] = e.length * coefficient;
+      }
+  }
+
+  // On the dense nodes: with r from the start to the node, [S - K hat(r), K; K^T, B], K = hat(r) B, integrand of (10).
+  // What is made of g varies faster than g itself, hence the finer grid.
+  static void material(ElementState& e, bool unloaded, bool improve) {
+    const GaussLegendre& t = tables().dense;
+    const Lanes h = splat(e.length);
+    e.unloaded = unloaded;
+    Lanes3 g[kDenseVectors];
+    denseVectors(e, unloaded, improve, g);
     const LanesMatrix R_start = splatMatrix(e.R_start);
     const Lanes3 n_start = splat(e.n_start), reach = h * splat(e.line_load);
     LanesMatrix R[kDenseVectors];
     for (int v = 0; v < kDenseVectors; ++v) {
-      Lanes3 g{};
-      for (int j = 0; j < kStages; ++j) {
-        const Lanes a = load(tables.to_dense.integral[j], v);
-        g.x += a * e.g_rate[0][j], g.y += a * e.g_rate[1][j], g.z += a * e.g_rate[2][j];
-      }
-      R[v] = R_start * cayley(h * g);
+      R[v] = R_start * cayley(g[v]);
       store(e.dense_tangent, v, tangentOf(e, R[v].z, n_start - load(t.c, v) * reach));
     }
     // Collocation is more accurate at the end than on the way; a constant takes the difference out.
@@ -329,12 +398,7 @@ struct Passes {
     for (int v = 0; v < kDenseVectors; ++v) store(e.dense_tangent, v, load(e.dense_tangent, v) + constant);
     Lanes total[kPackedSize] = {};
     for (int v = 0; v < kDenseVectors; ++v) {
-      Lanes3 r{};
-      for (int j = 0; j < kDense; ++j) {
-        const Lanes a = load(t.a[j], v);
-        r.x += a * e.dense_tangent[0][j], r.y += a * e.dense_tangent[1][j], r.z += a * e.dense_tangent[2][j];
-      }
-      r = h * r;
+      const Lanes3 r = h * denseIntegral(t, e.dense_tangent, v);
       const LanesMatrix B = bendOf(e, R[v]), S = stretchOf(e, R[v].z);
       const LanesMatrix K{cross(r, B.x), cross(r, B.y), cross(r, B.z)}, Kr = timesHat(K, r);
       storeSymmetric(e.density, v, LanesMatrix{S.x - Kr.x, S.y - Kr.y, S.z - Kr.z});
@@ -344,12 +408,6 @@ struct Passes {
       for (int i = 0; i < kPackedSize; ++i) total[i] += b * load(e.density[i], v);
     }
     for (int i = 0; i < kPackedSize; ++i) e.compliance[i] = sum(total[i]);
-    for (int k = 0; k < kStages; ++k)
-      for (int i = 0; i < 3; ++i) {
-        double coefficient = 0.0;
-        for (int j = 0; j < kStages; ++j) coefficient += tables.stages.legendre[k][j] * e.g_rate[i][j];
-        e.g_rate_series[k][i] = e.length * coefficient;
-      }
   }
 
   // Everything as Legendre series in x, integrated from 0 to x, which is exactly nothing at x = 0:
@@ -369,7 +427,8 @@ struct Passes {
         before = now, now = next;
       }
       Lanes3 g{};
-      for (int k = 0; k < kStages; ++k) g = g + integral[k] * splat(e.g_rate_series[k]);
+      if (e.unloaded) g = cayleyOfRotation((e.length * x) * splat(e.rest_curvature));
+      else for (int k = 0; k < kDense; ++k) g = g + integral[k] * splat(e.g_rate_series[k]);
       storeMatrix(s.R, v, splatMatrix(e.R_start) * cayley(g));
 
       Lanes weight[kDense];

@@ -192,7 +192,7 @@ void StaticsSolver::placeFresh(const DeadLoads& loads, Backbone& backbone) {
 
 void StaticsSolver::placeUnloaded(Backbone& backbone) {
   warm_ = has_columns_ = false;
-  discretisation_.choose(nullptr, backbone);
+  discretisation_.chooseUnloaded(backbone);
   live_stiffness::placeUnloaded(chain_, backbone);
 }
 
@@ -259,7 +259,7 @@ StaticsReport StaticsSolver::solve(const DeadLoads& loads, Backbone& backbone) {
       const RestState& rest = backbone.rest[part.segment];
       softness_ = std::max(softness_, rest.c.bending_torsion.diagonal().maxCoeff() * rest.stretch * part.length);
     }
-  if (discretisation_.choose(&loads, backbone)) warm_ = has_columns_ = false;
+  if (discretisation_.choose(loads, backbone)) warm_ = has_columns_ = false;
   report.converged = findEquilibrium(loads, false, backbone, report) && findTangent(loads, backbone, report);
   report.stable = report.converged && isStable();
   if (report.converged && !report.stable) {

@@ -14,13 +14,14 @@ struct Station {
   Matrix6 compliance = Matrix6::Zero();
 };
 
-// Material compliance of the whole chain about T, base axes. Prepares the elements for stations().
-Matrix6 accumulateMaterial(Backbone& backbone);
+// Material compliance of the whole chain about T, base axes. Prepares the elements for stations of this accuracy.
+// loaded: the backbone comes from statics.
+Matrix6 accumulateMaterial(Backbone& backbone, double accuracy, bool loaded);
 
 // Stations at fractions (0 to 1, in any order; values beyond are moved to the ends) of a segment's length. Needs
 // accumulateMaterial(). Read from the collocation polynomials where these are accurate enough (relative), else
-// integrated anew. loaded: the backbone comes from statics. out: as many as fractions.
-void stationsAt(const Backbone& backbone, int segment, const std::vector<double>& fractions, double accuracy,
-                bool loaded, std::vector<Station>& out);
+// integrated anew. Both arrays are of `size`.
+void stationsAt(const Backbone& backbone, int segment, const double* fractions, size_t size, double accuracy,
+                bool loaded, Station* out);
 
 }  // namespace live_stiffness

@@ -10,9 +10,10 @@ class Discretisation {
   // accuracy: relative, of pose and compliance. stages: of every element; 0: whatever is cheapest.
   Discretisation(const Chain& chain, double accuracy, int stages);
 
-  // Chooses stages and elements for the rest states in the backbone. loads: nullptr where nothing external acts.
-  // True if that changed anything: the backbone then holds no guess.
-  bool choose(const DeadLoads* loads, Backbone& backbone);
+  // Chooses stages and elements for the rest states in the backbone, and loads if any act. True if that changed
+  // anything: the backbone then holds no guess.
+  bool choose(const DeadLoads& loads, Backbone& backbone);
+  bool chooseUnloaded(Backbone& backbone);
 
   // Estimated relative error of a finished shape.
   double truncation(const Backbone& backbone) const;

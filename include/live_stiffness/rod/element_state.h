@@ -55,7 +55,8 @@ struct ElementState {
   // Filled by material(), on a Gauss grid of its own: densities of compliance about the element's start, tangents;
   // Legendre coefficients of g_rate; integral of the densities.
   NodeRow density[kPackedSize], dense_tangent[3];
-  double g_rate_series[kMaxStages][3];
+  double g_rate_series[kMaxNodes][3];
+  bool unloaded;
   double compliance[kPackedSize];
 };
 

@@ -9,10 +9,12 @@
 namespace live_stiffness {
 
 struct RodElement {
+  RodElement() : state() {}
+
   int segment = 0;     // index of the segment it is part of
   double start = 0.0;  // arc length of its start from the segment's base, stretched, m
   Vector3 p_start = Vector3::Zero();  // of its first section in B, m
-  ElementState state{};
+  ElementState state;
   // Material compliance of everything before the element, about its start, packed. Set by accumulateMaterial().
   double start_compliance[kPackedSize] = {};
 
