@@ -87,7 +87,8 @@ StiffnessSolution StiffnessModel::solve(PressuresRef pressures, const Wrench& ti
   solution.material_compliance = accumulateMaterial(backbone, options_.accuracy, workspace.loaded_);
   // Without external load the two are the same matrix.
   solution.compliance = workspace.loaded_ ? workspace.statics_.tangentCompliance() : solution.material_compliance;
-  if (!solution.X_BT.p.allFinite() || !solution.compliance.allFinite() || !solution.material_compliance.allFinite())
+  // A sum is finite only if all its terms are.
+  if (!std::isfinite(solution.X_BT.p.sum() + solution.compliance.sum() + solution.material_compliance.sum()))
     solution.status = {SolveCode::kNotConverged, -1, 0.0};
   return solution;
 }

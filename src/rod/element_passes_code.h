@@ -365,12 +365,13 @@ struct Passes {
 
   template <class Row>
   static LIVE_STIFFNESS_INLINE void fillSeries(ElementState& e, const GaussLegendre& t, int nodes, const Row (&rate)[3]) {
-    for (int k = 0; k < kDense; ++k)
+    for (int k = 0; k < nodes; ++k)
       for (int i = 0; i < 3; ++i) {
         double coefficient = 0.0;
         for (int j = 0; j < nodes; ++j) coefficient += t.legendre[k][j] * rate[i][j];
         e.g_rate_series[k][i] = e.length * coefficient;
       }
+    for (int k = nodes; k < kDense; ++k) e.g_rate_series[k][0] = e.g_rate_series[k][1] = e.g_rate_series[k][2] = 0.0;
   }
 
   // On the dense nodes: with r from the start to the node, [S - K hat(r), K; K^T, B], K = hat(r) B, integrand of (10).

@@ -40,7 +40,8 @@ bool StaticsSolver::updateInverse(const DeadLoads& loads, double goal, Backbone&
 // converge together, linearly, by a factor of about ten a sweep. Without trouble it takes three to ten.
 bool StaticsSolver::quick(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
   constexpr int kMaxSweeps = 40, kSweepsBeforeInverse = 2;
-  const double goal = std::max(0.05 * accuracy_, 4e-15);
+  constexpr double kSlowestRate = 0.2, kRounding = 1e-13;
+  const double goal = std::max(0.2 * accuracy_, 1e-15);
   bool has_inverse = warm_;
   if (!has_inverse) residual_inverse_.setIdentity();  // right but for the load's own effect
   double last = kInfinity, expected = kInfinity;
@@ -53,21 +54,19 @@ bool StaticsSolver::quick(const DeadLoads& loads, Backbone& backbone, StaticsRep
     report.residual = bendingOf(s.residual);
     const double error = std::max(s.change, report.residual);
     if (!s.sound || (growing += error > last) > 3) return false;
-    expected = error * (i == 0 ? 0.1 : std::min(0.2, error / last));
-    report.iteration = expected;
-    if (finish && error <= goal && has_inverse) return true;
-    // Rounding stops it short of the finest goals.
-    if (error <= 1e-13 && error > 0.3 * last) expected = 0.0;
-    if (finish && has_inverse && error <= 1e-13 && error >= 0.5 * last) return true;
+    // A sweep leaves in the shape about its change times the rate at which changes shrink; the residual it leaves.
+    const double rate = i == 0 ? 0.5 * kSlowestRate : std::min(kSlowestRate, error / last);
+    expected = error * rate;
+    report.iteration = s.change * rate;
+    const bool at_rounding = error <= kRounding && error >= 0.5 * last;
+    if (finish && has_inverse && (std::max(report.iteration, report.residual) <= goal || at_rounding)) return true;
+    if (error <= kRounding && error > 0.3 * last) expected = 0.0;
     last = error;
-    if (make_inverse) {
-      has_inverse = updateInverse(loads, kRoughColumns, backbone);
-      if (!has_inverse) return false;
-    }
+    if (make_inverse && !(has_inverse = updateInverse(loads, kRoughColumns, backbone))) return false;
     const Vector3 step = -residual_inverse_ * s.residual;
     base_moment_ += step;
-    if (has_inverse)
-      for (RodElement& element : backbone.elements) backbone.passes->follow(element.state, {step.x(), step.y(), step.z()});
+    if (!has_inverse) continue;
+    for (RodElement& element : backbone.elements) backbone.passes->follow(element.state, {step.x(), step.y(), step.z()});
   }
   return false;
 }
@@ -220,7 +219,7 @@ bool StaticsSolver::findEquilibrium(const DeadLoads& loads, bool along_loads, Ba
 
 bool StaticsSolver::findTangent(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
   ElementColumns tip;
-  const double change = tipColumns(chain_, loads, !has_columns_, std::max(0.1 * accuracy_, 1e-14), backbone, tip);
+  const double change = tipColumns(chain_, loads, !has_columns_, std::max(0.3 * accuracy_, 1e-14), backbone, tip);
   has_columns_ = std::isfinite(change);
   if (!has_columns_) return false;
   report.iteration += change;
@@ -237,15 +236,16 @@ bool StaticsSolver::findTangent(const DeadLoads& loads, Backbone& backbone, Stat
 
 // Positive definite: all pivots of L D L^T are positive.
 bool StaticsSolver::isStable() const {
-  double a[6][6];
-  for (int i = 0; i < 6; ++i)
-    for (int j = 0; j <= i; ++j) a[i][j] = 0.5 * (tangent_(i, j) + tangent_(j, i));
+  Matrix6 a = 0.5 * (tangent_ + tangent_.transpose());
+#pragma GCC unroll 6
   for (int k = 0; k < 6; ++k) {
-    if (!(a[k][k] > 0.0)) return false;
-    const double inverse = 1.0 / a[k][k];
-    for (int i = k + 1; i < 6; ++i) {
-      const double factor = a[i][k] * inverse;
-      for (int j = k + 1; j <= i; ++j) a[i][j] -= factor * a[j][k];
+    if (!(a(k, k) > 0.0)) return false;
+    const double inverse = 1.0 / a(k, k);
+#pragma GCC unroll 6
+    for (int j = k + 1; j < 6; ++j) {
+      const double factor = a(j, k) * inverse;
+#pragma GCC unroll 6
+      for (int i = j; i < 6; ++i) a(i, j) -= factor * a(i, k);
     }
   }
   return true;
