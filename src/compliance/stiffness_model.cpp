@@ -76,9 +76,10 @@ StiffnessSolution StiffnessModel::solve(PressuresRef pressures, const Wrench& ti
       return solution;
     }
     if (!report.stable) {
-      solution.status = {SolveCode::kUnstable, -1, 0.0};
+      solution.status = {SolveCode::kUnstable, -1, report.stable_share};
       return solution;
     }
+    solution.buckled = report.buckled;
     solution.numerical_error = report.truncation + report.residual;
   } else {
     workspace.statics_.reset();
@@ -118,8 +119,8 @@ std::string StiffnessModel::describe(const SolveStatus& status) const {
     case SolveCode::kNotConverged:
       return "no equilibrium found within the bound on iterations: lower the loads or pressures, or check the scene";
     case SolveCode::kUnstable:
-      return "only an unstable equilibrium was found: the robot would topple under its loads; lower its loads or "
-             "pressures";
+      return "only an unstable equilibrium was found: the robot would topple under its loads, beyond " + value +
+             " of them; lower its loads or pressures";
   }
   return "unknown status";
 }

@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -91,41 +90,6 @@ bool StaticsSolver::newton(const DeadLoads& loads, Backbone& backbone, int max_i
   return false;
 }
 
-// Loads grow from zero in steps of adaptive size. The base moment of the next step is extrapolated from the last three:
-// on a long hanging chain a shot strays exponentially, so that a moment scaled with the load would not do.
-bool StaticsSolver::continuation(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
-  std::array<double, 3> reached = {0.0, 0.0, 0.0};  // fractions of the load, newest first
-  std::array<Vector3, 3> moments = {Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
-  int known = 1;  // without load there is no moment
-  double advance = 0.25;
-  while (reached[0] < 1.0) {
-    const double trial = std::min(1.0, reached[0] + advance);
-    base_moment_.setZero();
-    for (int i = 0; i < known; ++i) {
-      double weight = 1.0;  // Lagrange's
-      for (int j = 0; j < known; ++j)
-        if (j != i) weight *= (trial - reached[j]) / (reached[i] - reached[j]);
-      base_moment_ += weight * moments[i];
-    }
-    warm_ = false;
-    if (newton(loads.scaled(trial), backbone, 12, report)) {
-      for (int i = 2; i > 0; --i) {
-        reached[i] = reached[i - 1];
-        moments[i] = moments[i - 1];
-      }
-      reached[0] = trial;
-      moments[0] = base_moment_;
-      known = std::min(known + 1, 3);
-      advance *= 1.5;
-    } else {
-      advance *= 0.5;
-      nodes_hold_guess_ = false;
-    }
-    if (advance < 1e-3 || report.iterations >= kMaxIterations) return false;
-  }
-  return true;
-}
-
 // The unloaded shape, and the base moment that the loads would exert on it.
 void StaticsSolver::placeFresh(const DeadLoads& loads, Backbone& backbone) {
   placeUnloaded(scene_, backbone);
@@ -185,29 +149,71 @@ bool StaticsSolver::refine(Backbone& backbone, StaticsReport& report) const {
   return refined;
 }
 
-// along_loads: by load continuation from the unloaded shape alone, otherwise by the quickest way that works.
-bool StaticsSolver::findEquilibrium(const DeadLoads& loads, bool along_loads, Backbone& backbone,
-                                    StaticsReport& report) {
+// True if the number of elements is not what element_count says; they then hold no guess.
+bool StaticsSolver::resizeElements(Backbone& backbone) {
+  const size_t total = std::accumulate(backbone.element_count.begin(), backbone.element_count.end(), 0);
+  if (total == backbone.elements.size()) return false;
+  backbone.elements.resize(total);
+  nodes_hold_guess_ = false;
+  return true;
+}
+
+// By the quickest way that works, whichever branch that leads to.
+bool StaticsSolver::findEquilibrium(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
   bool converged;
   do {
-    const size_t total = std::accumulate(backbone.element_count.begin(), backbone.element_count.end(), 0);
-    if (total != backbone.elements.size()) {
-      backbone.elements.resize(total);
-      nodes_hold_guess_ = false;
-    }
+    resizeElements(backbone);
+    const bool was_warm = warm_;
     if (!warm_) placeFresh(loads, backbone);
-    converged = (!along_loads || warm_) && newton(loads, backbone, 20, report);
-    if (!converged && !along_loads) {
+    converged = newton(loads, backbone, 20, report);
+    if (!converged && was_warm) {
       placeFresh(loads, backbone);
       converged = newton(loads, backbone, 30, report);
     }
-    if (!converged) {
-      placeFresh(loads, backbone);
-      converged = continuation(loads, backbone, report);
-    }
     warm_ = converged;
   } while (converged && refine(backbone, report));
-  return converged;
+  return converged && findTangent(loads, backbone);
+}
+
+// Settles to one load of a branch search, with more elements where the robot bends more by now.
+class StaticsSolver::Finder : public EquilibriumFinder {
+ public:
+  Finder(StaticsSolver& solver, Backbone& backbone, StaticsReport& report)
+      : solver_(solver), backbone_(backbone), report_(report) {}
+
+  std::optional<Equilibrium> settle(const DeadLoads& loads, const Vector3& base_moment) override {
+    solver_.base_moment_ = base_moment;
+    do {
+      solver_.resizeElements(backbone_);
+      solver_.warm_ = false;
+      if (!solver_.newton(loads, backbone_, 12, report_)) {
+        solver_.nodes_hold_guess_ = false;
+        return std::nullopt;
+      }
+    } while (solver_.refine(backbone_, report_));
+    if (!solver_.findTangent(loads, backbone_)) return std::nullopt;
+    return Equilibrium{solver_.base_moment_, backbone_.X_BT.p, solver_.tangent_, solver_.isStable(backbone_)};
+  }
+  double bendingOf(const Vector3& moment) const override { return solver_.bendingOf(moment, backbone_); }
+  bool exhausted() const override { return report_.iterations >= kMaxIterations; }
+
+ private:
+  StaticsSolver& solver_;
+  Backbone& backbone_;
+  StaticsReport& report_;
+};
+
+bool StaticsSolver::findAlongLoads(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
+  chooseElements(loads, backbone);
+  resizeElements(backbone);
+  placeFresh(DeadLoads(), backbone);
+  Finder finder(*this, backbone, report);
+  BranchSearch search(finder, scene_.length());
+  const BranchEnd end = search.run(loads);
+  report.buckled = end == BranchEnd::kBuckled;
+  report.stable = report.buckled || end == BranchEnd::kLoading;
+  report.stable_share = search.stableShare();
+  return end != BranchEnd::kNotConverged;
 }
 
 bool StaticsSolver::findTangent(const DeadLoads& loads, const Backbone& backbone) {
@@ -222,23 +228,24 @@ bool StaticsSolver::findTangent(const DeadLoads& loads, const Backbone& backbone
   return tangent_.allFinite();
 }
 
-bool StaticsSolver::isStable() const {
+bool StaticsSolver::isStable(const Backbone& backbone) const {
+  // Of a neutral equilibrium rounding decides what is left of the compliance, so it must not be too large either.
+  constexpr double kNeutral = 1e7;  // times that of the softest segment
   const Matrix6 symmetric_part = 0.5 * (tangent_ + tangent_.transpose());
-  return symmetric_part.llt().info() == Eigen::Success;
+  return symmetric_part.llt().info() == Eigen::Success &&
+         symmetric_part.bottomRightCorner<3, 3>().trace() < kNeutral * bendingOf(Vector3::UnitX(), backbone);
 }
 
 StaticsReport StaticsSolver::solve(const DeadLoads& loads, Backbone& backbone) {
   StaticsReport report;
   chooseElements(loads, backbone);
-  report.converged = findEquilibrium(loads, false, backbone, report) && findTangent(loads, backbone);
-  report.stable = report.converged && isStable();
-  if (report.converged && !report.stable) {
-    // Newton's method takes any equilibrium; the one that the robot sags to as its loads grow is more likely stable.
+  report.converged = findEquilibrium(loads, backbone, report);
+  report.stable = report.converged && isStable(backbone);
+  if (!report.stable) {
+    // Newton's method takes any equilibrium, if it finds one; the one that the robot sags to as its loads grow is more
+    // likely stable.
     StaticsReport second;
-    warm_ = false;
-    chooseElements(loads, backbone);
-    second.converged = findEquilibrium(loads, true, backbone, second) && findTangent(loads, backbone);
-    second.stable = second.converged && isStable();
+    second.converged = findAlongLoads(loads, backbone, second);
     second.iterations += report.iterations;
     report = second;
   }

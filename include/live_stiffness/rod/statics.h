@@ -4,13 +4,18 @@
 // For dead loads the force n(s) is known in advance (weights beyond s plus the tip force), so only the base moment m0
 // is unknown: three unknowns for any number of segments and links. The residual is the moment left over at T.
 
+#include "live_stiffness/rod/branch_search.h"
 #include "live_stiffness/rod/shooting.h"
 
 namespace live_stiffness {
 
 struct StaticsReport {
   bool converged = false;
-  bool stable = false;         // the tangent compliance is positive definite; false: buckled over, or at the brink
+  bool stable = false;         // the tangent compliance is positive definite; false: buckled over, at the brink, or
+                               // neutral (a symmetric column that may lean in any direction)
+  bool buckled = false;        // the branch that starts at zero load was seen to lose its stability before the full
+                               // loads; the result is on the stable one that it gives way to
+  double stable_share = 1.0;   // of the loads, up to which that branch was seen to be stable
   int iterations = 0;          // passes over the chain, all attempts together; at most 2 kMaxIterations
   double residual = 0.0;       // of the tip moment, as bending of the softest segment over its length, rad
   double truncation = 0.0;     // estimated relative error of discretisation
@@ -24,8 +29,12 @@ class StaticsSolver {
   StaticsSolver(const Scene& scene, double accuracy);
 
   // Solves from backbone.rest. Starts from the last solution unless reset() was called; falls back to the unloaded
-  // shape, damped steps and load continuation. Of an unstable equilibrium it tries once more along the loads from zero,
-  // and keeps the stable one if that finds it. On success backbone holds the shape and the tangent can be read.
+  // shape, damped steps and a branch search along the loads from zero. So it does of an unstable equilibrium, and keeps
+  // the stable one if that finds it. On success backbone holds the shape and the tangent can be read.
+  //
+  // A warm start stays on the branch of the last solution while that is stable, as the robot does, even where a cold
+  // start would find another one: which of several stable shapes a robot is in depends on its past. To tell would take
+  // a search along the loads, many times the cost of the solve; reset() gives the cold answer.
   StaticsReport solve(const DeadLoads& loads, Backbone& backbone);
 
   // Compliance of T under a dead wrench at T (base axes), by the derivative of the loaded equilibrium: tangent, 6x6.
@@ -36,12 +45,14 @@ class StaticsSolver {
   void reset() { warm_ = false; }
 
  private:
-  bool findEquilibrium(const DeadLoads& loads, bool along_loads, Backbone& backbone, StaticsReport& report);
+  class Finder;  // for the branch search
+  bool findEquilibrium(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
+  bool findAlongLoads(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
   bool findTangent(const DeadLoads& loads, const Backbone& backbone);
-  bool isStable() const;
+  bool isStable(const Backbone& backbone) const;
   bool march(const DeadLoads& loads, const Vector3& base_moment, Backbone& backbone, Vector3& residual);
   bool newton(const DeadLoads& loads, Backbone& backbone, int max_iterations, StaticsReport& report);
-  bool continuation(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
+  bool resizeElements(Backbone& backbone);
   void placeFresh(const DeadLoads& loads, Backbone& backbone);
   void chooseElements(const DeadLoads& loads, Backbone& backbone) const;
   bool refine(Backbone& backbone, StaticsReport& report) const;

@@ -1,0 +1,111 @@
+#include "live_stiffness/rod/branch_search.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace live_stiffness {
+namespace {
+
+constexpr double kFirstAdvance = 0.25;  // share of a leg
+constexpr double kLeastAdvance = 1e-4;
+constexpr double kMostBending = 0.5;    // rad, by which a step may miss what the last ones let expect
+constexpr double kPush = 0.05;          // deflection by the push, were the robot unloaded, over its length
+
+DeadLoads between(const DeadLoads& a, const DeadLoads& b, double share) {
+  return {(1.0 - share) * a.gravity + share * b.gravity, (1.0 - share) * a.tip + share * b.tip};
+}
+
+DeadLoads withForce(DeadLoads loads, const Vector3& force) {
+  linear(loads.tip) += force;
+  return loads;
+}
+
+// Largest translation that a unit force at the tip can cause (m/N), and the force's direction.
+struct SoftestDirection {
+  Vector3 direction;
+  double compliance;
+
+  explicit SoftestDirection(const Matrix6& tangent) {
+    const Matrix3 C = tangent.topLeftCorner<3, 3>();
+    const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(0.5 * (C + C.transpose()));
+    direction = eigen.eigenvectors().col(2);
+    compliance = eigen.eigenvalues()[2];
+  }
+};
+
+}  // namespace
+
+// One straight leg from the loads reached so far, in steps of adaptive size. The base moment of the next step is
+// extrapolated from the last three: on a long hanging chain a shot strays exponentially, so that a moment scaled with
+// the load would not do.
+bool BranchSearch::follow(const DeadLoads& target) {
+  const DeadLoads start = loads_;
+  std::array<double, 3> reached = {0.0, 0.0, 0.0};  // shares, newest first
+  std::array<Vector3, 3> moments = {at_.base_moment, at_.base_moment, at_.base_moment};
+  int known = 1;
+  double advance = kFirstAdvance;
+  share_ = 0.0;
+  lost_stability_ = false;
+  while (share_ < 1.0) {
+    if (advance < kLeastAdvance || finder_.exhausted()) return false;
+    const double trial = std::min(1.0, share_ + advance);
+    Vector3 guess = Vector3::Zero();
+    for (int i = 0; i < known; ++i) {
+      double weight = 1.0;  // Lagrange's
+      for (int j = 0; j < known; ++j)
+        if (j != i) weight *= (trial - reached[j]) / (reached[i] - reached[j]);
+      guess += weight * moments[i];
+    }
+    const DeadLoads loads = between(start, target, trial);
+    const std::optional<Equilibrium> next = finder_.settle(loads, guess);
+    const bool jumped = next && finder_.bendingOf(next->base_moment - guess) > kMostBending;
+    if (!next || !next->stable || jumped) {
+      lost_stability_ = next.has_value();
+      advance *= 0.4;
+      continue;
+    }
+    for (int i = 2; i > 0; --i) {
+      reached[i] = reached[i - 1];
+      moments[i] = moments[i - 1];
+    }
+    share_ = reached[0] = trial;
+    moments[0] = next->base_moment;
+    known = std::min(known + 1, 3);
+    moved_ = next->p_BT - at_.p_BT;
+    at_ = *next;
+    loads_ = loads;
+    advance *= 1.6;
+  }
+  return true;
+}
+
+bool BranchSearch::goAround(const DeadLoads& target, const Vector3& push) {
+  return follow(withForce(loads_, push)) && follow(withForce(target, push)) && follow(target);
+}
+
+BranchEnd BranchSearch::run(const DeadLoads& loads) {
+  const std::optional<Equilibrium> unloaded = finder_.settle(DeadLoads(), Vector3::Zero());
+  if (!unloaded) return BranchEnd::kNotConverged;
+  loads_ = DeadLoads();
+  at_ = *unloaded;
+  const bool followed = follow(loads);
+  stable_share_ = share_;
+  if (followed) return BranchEnd::kLoading;
+  if (!lost_stability_) return BranchEnd::kNotConverged;
+
+  const DeadLoads last_stable = loads_;
+  const Equilibrium before = at_;
+  Vector3 push = SoftestDirection(before.tangent).direction;
+  if (push.dot(moved_) < 0.0) push = -push;  // onwards first
+  push *= kPush * length_ / SoftestDirection(unloaded->tangent).compliance;
+  for (double sign : {1.0, -1.0}) {
+    loads_ = last_stable;
+    at_ = before;
+    if (goAround(loads, sign * push)) return BranchEnd::kBuckled;
+  }
+  return BranchEnd::kUnstable;
+}
+
+}  // namespace live_stiffness
