@@ -8,9 +8,12 @@
 namespace live_stiffness {
 namespace {
 
+constexpr int kMemory = 5;              // steps that the next one is extrapolated from
 constexpr double kFirstAdvance = 0.25;  // share of a leg
-constexpr double kLeastAdvance = 1e-4;
+constexpr double kLeastAdvance = 1e-3;  // from zero load on: then it is time to go around
+constexpr double kLeastAdvanceAround = 1e-5;
 constexpr double kMostBending = 0.5;    // rad, by which a step may miss what the last ones let expect
+constexpr double kMostMotion = 0.4;     // of the tip in a step, over the length
 constexpr double kPush = 0.05;          // deflection by the push, were the robot unloaded, over its length
 
 DeadLoads between(const DeadLoads& a, const DeadLoads& b, double share) {
@@ -27,29 +30,38 @@ struct SoftestDirection {
   Vector3 direction;
   double compliance;
 
-  explicit SoftestDirection(const Matrix6& tangent) {
-    const Matrix3 C = tangent.topLeftCorner<3, 3>();
+  explicit SoftestDirection(const Matrix3& C) {
     const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(0.5 * (C + C.transpose()));
     direction = eigen.eigenvectors().col(2);
     compliance = eigen.eigenvalues()[2];
   }
 };
 
+// Where the robot is giving way: the tip's last motion as far as it is along soft directions. Of a straight column,
+// which has not moved sideways, any soft direction.
+Vector3 directionOfCollapse(const Matrix3& C, const Vector3& moved) {
+  const SoftestDirection softest(C);
+  const Vector3 softly = C * (C * moved);
+  if (softly.norm() > 1e-9 * softest.compliance * softest.compliance * moved.norm()) return softly.normalized();
+  return softest.direction;
+}
+
 }  // namespace
 
 // One straight leg from the loads reached so far, in steps of adaptive size. The base moment of the next step is
-// extrapolated from the last three: on a long hanging chain a shot strays exponentially, so that a moment scaled with
+// extrapolated from the last ones: on a long hanging chain a shot strays exponentially, so that a moment scaled with
 // the load would not do.
-bool BranchSearch::follow(const DeadLoads& target) {
+bool BranchSearch::follow(const DeadLoads& target, double least_advance) {
   const DeadLoads start = loads_;
-  std::array<double, 3> reached = {0.0, 0.0, 0.0};  // shares, newest first
-  std::array<Vector3, 3> moments = {at_.base_moment, at_.base_moment, at_.base_moment};
+  std::array<double, kMemory> reached{};  // shares, newest first
+  std::array<Vector3, kMemory> moments;
+  moments.fill(at_.base_moment);
   int known = 1;
   double advance = kFirstAdvance;
   share_ = 0.0;
   lost_stability_ = false;
   while (share_ < 1.0) {
-    if (advance < kLeastAdvance || finder_.exhausted()) return false;
+    if (advance < least_advance || finder_.exhausted()) return false;
     const double trial = std::min(1.0, share_ + advance);
     Vector3 guess = Vector3::Zero();
     for (int i = 0; i < known; ++i) {
@@ -60,19 +72,20 @@ bool BranchSearch::follow(const DeadLoads& target) {
     }
     const DeadLoads loads = between(start, target, trial);
     const std::optional<Equilibrium> next = finder_.settle(loads, guess);
-    const bool jumped = next && finder_.bendingOf(next->base_moment - guess) > kMostBending;
+    const bool jumped = next && (finder_.bendingOf(next->base_moment - guess) > kMostBending ||
+                                 (next->p_BT - at_.p_BT).norm() > kMostMotion * length_);
     if (!next || !next->stable || jumped) {
       lost_stability_ = next.has_value();
       advance *= 0.4;
       continue;
     }
-    for (int i = 2; i > 0; --i) {
+    for (int i = kMemory - 1; i > 0; --i) {
       reached[i] = reached[i - 1];
       moments[i] = moments[i - 1];
     }
     share_ = reached[0] = trial;
     moments[0] = next->base_moment;
-    known = std::min(known + 1, 3);
+    known = std::min(known + 1, kMemory);
     moved_ = next->p_BT - at_.p_BT;
     at_ = *next;
     loads_ = loads;
@@ -82,7 +95,8 @@ bool BranchSearch::follow(const DeadLoads& target) {
 }
 
 bool BranchSearch::goAround(const DeadLoads& target, const Vector3& push) {
-  return follow(withForce(loads_, push)) && follow(withForce(target, push)) && follow(target);
+  return follow(withForce(loads_, push), kLeastAdvanceAround) &&
+         follow(withForce(target, push), kLeastAdvanceAround) && follow(target, kLeastAdvanceAround);
 }
 
 BranchEnd BranchSearch::run(const DeadLoads& loads) {
@@ -90,16 +104,15 @@ BranchEnd BranchSearch::run(const DeadLoads& loads) {
   if (!unloaded) return BranchEnd::kNotConverged;
   loads_ = DeadLoads();
   at_ = *unloaded;
-  const bool followed = follow(loads);
+  const bool followed = follow(loads, kLeastAdvance);
   stable_share_ = share_;
   if (followed) return BranchEnd::kLoading;
-  if (!lost_stability_) return BranchEnd::kNotConverged;
+  if (!lost_stability_ || finder_.exhausted()) return BranchEnd::kNotConverged;
 
   const DeadLoads last_stable = loads_;
   const Equilibrium before = at_;
-  Vector3 push = SoftestDirection(before.tangent).direction;
-  if (push.dot(moved_) < 0.0) push = -push;  // onwards first
-  push *= kPush * length_ / SoftestDirection(unloaded->tangent).compliance;
+  const double largest_push = kPush * length_ / SoftestDirection(unloaded->tangent.topLeftCorner<3, 3>()).compliance;
+  const Vector3 push = largest_push * directionOfCollapse(before.tangent.topLeftCorner<3, 3>(), moved_);
   for (double sign : {1.0, -1.0}) {
     loads_ = last_stable;
     at_ = before;

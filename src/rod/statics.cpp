@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 
+#include "live_stiffness/rod/conjugate_points.h"
 #include "live_stiffness/rod/kinematics.h"
 
 namespace live_stiffness {
@@ -192,7 +193,7 @@ class StaticsSolver::Finder : public EquilibriumFinder {
       }
     } while (solver_.refine(backbone_, report_));
     if (!solver_.findTangent(loads, backbone_)) return std::nullopt;
-    return Equilibrium{solver_.base_moment_, backbone_.X_BT.p, solver_.tangent_, solver_.isStable(backbone_)};
+    return Equilibrium{solver_.base_moment_, backbone_.X_BT.p, solver_.tangent_, solver_.isStable(loads, backbone_)};
   }
   double bendingOf(const Vector3& moment) const override { return solver_.bendingOf(moment, backbone_); }
   bool exhausted() const override { return report_.iterations >= kMaxIterations; }
@@ -228,22 +229,56 @@ bool StaticsSolver::findTangent(const DeadLoads& loads, const Backbone& backbone
   return tangent_.allFinite();
 }
 
-bool StaticsSolver::isStable(const Backbone& backbone) const {
+bool StaticsSolver::isStable(const DeadLoads& loads, const Backbone& backbone) const {
   // Of a neutral equilibrium rounding decides what is left of the compliance, so it must not be too large either.
   constexpr double kNeutral = 1e7;  // times that of the softest segment
-  const Matrix6 symmetric_part = 0.5 * (tangent_ + tangent_.transpose());
+  // Of a rod without elongation the compliance is singular, and rounding decides its sign. Beyond buckling the negative
+  // part is as large as the loads are small.
+  constexpr double kRounding = 1e-11;
+  Matrix6 symmetric_part = 0.5 * (tangent_ + tangent_.transpose());
+  const double translation = symmetric_part.topLeftCorner<3, 3>().trace();
+  const double rotation = symmetric_part.bottomRightCorner<3, 3>().trace();
+  if (!(translation > 0.0) || !(rotation < kNeutral * bendingOf(Vector3::UnitX(), backbone))) return false;
+  symmetric_part.diagonal().head<3>().array() += kRounding * translation;
+  symmetric_part.diagonal().tail<3>().array() += kRounding * rotation;
   return symmetric_part.llt().info() == Eigen::Success &&
-         symmetric_part.bottomRightCorner<3, 3>().trace() < kNeutral * bendingOf(Vector3::UnitX(), backbone);
+         !(mayBuckle(loads, backbone) && hasConjugatePoint(scene_, loads, backbone));
+}
+
+// False if the loads are so small that there is one equilibrium only: below 1, this bounds the ratio of load and buckling
+// load of the straight robot from above, by the trace of int |n| int c ds dl (exact for a soft hinge, 0.81 for a uniform
+// column under a tip load). A tip moment alone winds the rod up by half a turn before it has a choice.
+bool StaticsSolver::mayBuckle(const DeadLoads& loads, const Backbone& backbone) const {
+  Vector3 n = baseForce(scene_, loads);
+  double softness = 0.0, load_number = 0.0;  // of all before, rad / (N m)
+  walk(
+      scene_,
+      [&](int index, const Segment& segment) {
+        const RestState& rest = backbone.rest[index];
+        const double length = rest.stretch * segment.length;
+        const double own = rest.c.bending_torsion.diagonal().maxCoeff() * length;
+        load_number += n.norm() * length * (softness + 0.5 * own);
+        softness += own;
+        n -= segment.mass() * loads.gravity;
+      },
+      [&](const Link& link) {
+        load_number += n.norm() * link.length * softness;
+        n -= link.mass * loads.gravity;
+      });
+  load_number += n.norm() * scene_.tip_offset.norm() * softness + angular(loads.tip).norm() * softness / kPi;
+  return !(load_number < 1.0);
 }
 
 StaticsReport StaticsSolver::solve(const DeadLoads& loads, Backbone& backbone) {
   StaticsReport report;
   chooseElements(loads, backbone);
-  report.converged = findEquilibrium(loads, backbone, report);
-  report.stable = report.converged && isStable(backbone);
+  // Newton's method takes any equilibrium, if it finds one. So where there may be several it is trusted near a stable
+  // one only.
+  if (warm_ || !mayBuckle(loads, backbone)) {
+    report.converged = findEquilibrium(loads, backbone, report);
+    report.stable = report.converged && isStable(loads, backbone);
+  }
   if (!report.stable) {
-    // Newton's method takes any equilibrium, if it finds one; the one that the robot sags to as its loads grow is more
-    // likely stable.
     StaticsReport second;
     second.converged = findAlongLoads(loads, backbone, second);
     second.iterations += report.iterations;

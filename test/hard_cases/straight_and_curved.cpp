@@ -149,12 +149,13 @@ void helixAtRest(HardOutcome& outcome) {
 }
 
 // A straight rod that a force along an axis and a moment coil into a helix of curvature kappa, torsion tau and twist w:
-// f = sqrt(kappa^2 + tau^2) (GJ w - EI tau) along the axis, m = EI kappa b + GJ w t (Love, article 270).
+// f = sqrt(kappa^2 + tau^2) (GJ w - EI tau) along the axis, m = EI kappa b + GJ w t (Love, article 270). Moments below
+// pi EI / L, beyond which a dead one is not stable.
 void helixUnderLoad(HardOutcome& outcome) {
   BareRod rod = BareRod::elastica();
   constexpr double kGJ = 0.8;
   rod.rest.c.bending_torsion(2, 2) = 1.0 / kGJ;
-  for (const Vector3& shape : {Vector3(1.0, 0.3, 0.5), Vector3(2.0, 1.0, 1.5), Vector3(3.0, 0.7, 0.9)}) {
+  for (const Vector3& shape : {Vector3(1.0, 0.3, 0.5), Vector3(2.0, 1.0, 1.5), Vector3(2.1, 0.5, 0.6)}) {
     const double kappa = shape[0], tau = shape[1], twist = shape[2];
     const Vector3 darboux(0.0, kappa, tau);  // start: tangent z, normal x, binormal y
     const Matrix3 frame = expSo3(darboux);   // of the curve at the tip, in the same order
@@ -178,17 +179,18 @@ HardTheme straightAndCurved() {
   const auto add = [&](const std::string& name, const std::string& truth, std::function<void(HardOutcome&)> run) {
     theme.cases.push_back({name, truth, std::move(run)});
   };
-  // Entry by entry, relative to the entry: a few units in the last place in closed form.
+  // Bent far, the quadrature of an element of 1.5 rad is good to about the 1e-14 that the estimate states; ten times
+  // that is its promise. Nearly straight, entry by entry, each relative to itself: a few units in the last place in closed form.
   add("nearly_straight", arcs, [=](HardOutcome& o) { nearlyStraight(o, none, 4e-15); });
   add("nearly_straight_solved", arcs, [=](HardOutcome& o) { nearlyStraight(o, kNegligible, 1e-12); });
   for (double n : {1.0, 2.0}) {
     const std::string name = n == 1.0 ? "full_circle" : "turns_of_720_deg";
-    add(name, arcs, [=](HardOutcome& o) { turns(o, n, none, 1e-14); });
+    add(name, arcs, [=](HardOutcome& o) { turns(o, n, none, 1e-13); });
     add(name + "_solved", arcs, [=](HardOutcome& o) { turns(o, n, kNegligible, 1e-11); });
   }
   for (int n : {2, 6}) {
     const std::string name = "s_shape_of_" + std::to_string(n) + "_segments";
-    add(name, arcs, [=](HardOutcome& o) { sShape(o, n, none, 1e-14); });
+    add(name, arcs, [=](HardOutcome& o) { sShape(o, n, none, 1e-13); });
     add(name + "_solved", arcs, [=](HardOutcome& o) { sShape(o, n, kNegligible, 1e-11); });
   }
   add("helix_at_rest", "helix", helixAtRest);

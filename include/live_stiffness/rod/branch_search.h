@@ -4,7 +4,7 @@
 // A robot that bends under its loads has one branch of equilibria that starts at zero load. It may lose its stability
 // on the way: at a bifurcation (a standing column starts to lean) or at a fold (it snaps). The search notices, because
 // the tangent compliance must stay positive definite from step to step and the base moment must not jump, and then goes
-// around: a small sideways force at the tip along the softest direction is added just before that load, the loads grow
+// around: a small sideways force at the tip, the way it is giving, is added just before that load, the loads grow
 // to their full size beside it, and it is taken away again. What is left is the stable branch that the first one gives
 // way to. A symmetric column, which may lean in any direction, ends in a neutral equilibrium; that is not stable.
 
@@ -35,7 +35,7 @@ class EquilibriumFinder {
 
 enum class BranchEnd {
   kLoading,       // stable all the way from zero load
-  kBuckled,       // that branch loses its stability; on the stable one that it gives way to
+  kBuckled,       // that branch loses its stability, or turns too sharply to follow; on the one that it gives way to
   kUnstable,      // it loses its stability, and no stable one was found
   kNotConverged,  // the bound on iterations, or steps grew too small
 };
@@ -52,7 +52,7 @@ class BranchSearch {
   double stableShare() const { return stable_share_; }
 
  private:
-  bool follow(const DeadLoads& target);
+  bool follow(const DeadLoads& target, double least_advance);
   bool goAround(const DeadLoads& target, const Vector3& push);
 
   EquilibriumFinder& finder_;

@@ -11,8 +11,8 @@ namespace live_stiffness {
 
 struct StaticsReport {
   bool converged = false;
-  bool stable = false;         // the tangent compliance is positive definite; false: buckled over, at the brink, or
-                               // neutral (a symmetric column that may lean in any direction)
+  bool stable = false;         // the tangent compliance is positive definite and the robot stable inside; false: buckled
+                               // over, at the brink, or neutral (a symmetric column that may lean in any direction)
   bool buckled = false;        // the branch that starts at zero load was seen to lose its stability before the full
                                // loads; the result is on the stable one that it gives way to
   double stable_share = 1.0;   // of the loads, up to which that branch was seen to be stable
@@ -23,14 +23,14 @@ struct StaticsReport {
 
 class StaticsSolver {
  public:
-  static constexpr int kMaxIterations = 400;
+  static constexpr int kMaxIterations = 600;
 
   // The scene must outlive the solver. accuracy: relative, for the choice of the number of elements.
   StaticsSolver(const Scene& scene, double accuracy);
 
-  // Solves from backbone.rest. Starts from the last solution unless reset() was called; falls back to the unloaded
-  // shape, damped steps and a branch search along the loads from zero. So it does of an unstable equilibrium, and keeps
-  // the stable one if that finds it. On success backbone holds the shape and the tangent can be read.
+  // Solves from backbone.rest. Starts from the last solution unless reset() was called, else from the unloaded shape.
+  // When that finds no stable equilibrium, or starts cold under loads that allow several, it is found by a branch search
+  // along the loads from zero. On success backbone holds the shape and the tangent can be read.
   //
   // A warm start stays on the branch of the last solution while that is stable, as the robot does, even where a cold
   // start would find another one: which of several stable shapes a robot is in depends on its past. To tell would take
@@ -49,7 +49,8 @@ class StaticsSolver {
   bool findEquilibrium(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
   bool findAlongLoads(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
   bool findTangent(const DeadLoads& loads, const Backbone& backbone);
-  bool isStable(const Backbone& backbone) const;
+  bool mayBuckle(const DeadLoads& loads, const Backbone& backbone) const;
+  bool isStable(const DeadLoads& loads, const Backbone& backbone) const;
   bool march(const DeadLoads& loads, const Vector3& base_moment, Backbone& backbone, Vector3& residual);
   bool newton(const DeadLoads& loads, Backbone& backbone, int max_iterations, StaticsReport& report);
   bool resizeElements(Backbone& backbone);
