@@ -193,7 +193,7 @@ class StaticsSolver::Finder : public EquilibriumFinder {
       }
     } while (solver_.refine(backbone_, report_));
     if (!solver_.findTangent(loads, backbone_)) return std::nullopt;
-    return Equilibrium{solver_.base_moment_, backbone_.X_BT.p, solver_.tangent_, solver_.isStable(loads, backbone_)};
+    return Equilibrium{solver_.base_moment_, backbone_.X_BT.p, solver_.tangent_, solver_.isStable(loads, backbone_, report_)};
   }
   double bendingOf(const Vector3& moment) const override { return solver_.bendingOf(moment, backbone_); }
   bool exhausted() const override { return report_.iterations >= kMaxIterations; }
@@ -229,16 +229,17 @@ bool StaticsSolver::findTangent(const DeadLoads& loads, const Backbone& backbone
   return tangent_.allFinite();
 }
 
-bool StaticsSolver::isStable(const DeadLoads& loads, const Backbone& backbone) const {
-  // Of a neutral equilibrium rounding decides what is left of the compliance, so it must not be too large either.
-  constexpr double kNeutral = 1e7;  // times that of the softest segment
+bool StaticsSolver::isStable(const DeadLoads& loads, const Backbone& backbone, const StaticsReport& report) const {
+  // Of a neutral equilibrium rounding, or the error of discretisation, decides what is left of the compliance. So it
+  // must not be larger than that of the softest segment by more than leaves a digit.
+  const double neutral = std::min(1e7, 0.1 / (report.truncation + report.residual));
   // Of a rod without elongation the compliance is singular, and rounding decides its sign. Beyond buckling the negative
   // part is as large as the loads are small.
   constexpr double kRounding = 1e-11;
   Matrix6 symmetric_part = 0.5 * (tangent_ + tangent_.transpose());
   const double translation = symmetric_part.topLeftCorner<3, 3>().trace();
   const double rotation = symmetric_part.bottomRightCorner<3, 3>().trace();
-  if (!(translation > 0.0) || !(rotation < kNeutral * bendingOf(Vector3::UnitX(), backbone))) return false;
+  if (!(translation > 0.0) || !(rotation < neutral * bendingOf(Vector3::UnitX(), backbone))) return false;
   symmetric_part.diagonal().head<3>().array() += kRounding * translation;
   symmetric_part.diagonal().tail<3>().array() += kRounding * rotation;
   return symmetric_part.llt().info() == Eigen::Success &&
@@ -276,7 +277,7 @@ StaticsReport StaticsSolver::solve(const DeadLoads& loads, Backbone& backbone) {
   // one only.
   if (warm_ || !mayBuckle(loads, backbone)) {
     report.converged = findEquilibrium(loads, backbone, report);
-    report.stable = report.converged && isStable(loads, backbone);
+    report.stable = report.converged && isStable(loads, backbone, report);
   }
   if (!report.stable) {
     StaticsReport second;

@@ -50,7 +50,7 @@ class StaticsSolver {
   bool findAlongLoads(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
   bool findTangent(const DeadLoads& loads, const Backbone& backbone);
   bool mayBuckle(const DeadLoads& loads, const Backbone& backbone) const;
-  bool isStable(const DeadLoads& loads, const Backbone& backbone) const;
+  bool isStable(const DeadLoads& loads, const Backbone& backbone, const StaticsReport& report) const;
   bool march(const DeadLoads& loads, const Vector3& base_moment, Backbone& backbone, Vector3& residual);
   bool newton(const DeadLoads& loads, Backbone& backbone, int max_iterations, StaticsReport& report);
   bool resizeElements(Backbone& backbone);
