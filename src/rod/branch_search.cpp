@@ -94,9 +94,12 @@ bool BranchSearch::follow(const DeadLoads& target, double least_advance) {
   return true;
 }
 
-bool BranchSearch::goAround(const DeadLoads& target, const Vector3& push) {
-  return follow(withForce(loads_, push), kLeastAdvanceAround) &&
-         follow(withForce(target, push), kLeastAdvanceAround) && follow(target, kLeastAdvanceAround);
+// True if the loads were reached beside the first branch; then `end` says what taking the push away led to.
+bool BranchSearch::goAround(const DeadLoads& target, const Vector3& push, BranchEnd& end) {
+  if (!follow(withForce(loads_, push), kLeastAdvanceAround) || !follow(withForce(target, push), kLeastAdvanceAround))
+    return false;
+  end = follow(target, 0.1 * kLeastAdvance) ? BranchEnd::kBuckled : BranchEnd::kUnstable;
+  return true;
 }
 
 BranchEnd BranchSearch::run(const DeadLoads& loads) {
@@ -113,12 +116,13 @@ BranchEnd BranchSearch::run(const DeadLoads& loads) {
   const Equilibrium before = at_;
   const double largest_push = kPush * length_ / SoftestDirection(unloaded->tangent.topLeftCorner<3, 3>()).compliance;
   const Vector3 push = largest_push * directionOfCollapse(before.tangent.topLeftCorner<3, 3>(), moved_);
+  BranchEnd end = BranchEnd::kUnstable;
   for (double sign : {1.0, -1.0}) {
     loads_ = last_stable;
     at_ = before;
-    if (goAround(loads, sign * push)) return BranchEnd::kBuckled;
+    if (goAround(loads, sign * push, end)) return end;  // when the push cannot go, a neutral equilibrium is at its end
   }
-  return BranchEnd::kUnstable;
+  return end;
 }
 
 }  // namespace live_stiffness

@@ -53,7 +53,7 @@ class BranchSearch {
 
  private:
   bool follow(const DeadLoads& target, double least_advance);
-  bool goAround(const DeadLoads& target, const Vector3& push);
+  bool goAround(const DeadLoads& target, const Vector3& push, BranchEnd& end);
 
   EquilibriumFinder& finder_;
   double length_;
