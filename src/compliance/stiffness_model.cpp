@@ -1,5 +1,6 @@
 #include "live_stiffness/compliance/stiffness_model.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -86,11 +87,14 @@ StiffnessSolution StiffnessModel::solve(PressuresRef pressures, const Wrench& ti
     chooseUnloadedElements(scene_, backbone);
     placeUnloaded(scene_, backbone);
   }
-  solution.numerical_error += 1e-14;  // rounding
   solution.X_BT = backbone.X_BT;
   solution.material_compliance = tipMaterialCompliance(backbone);
   // Without external load the two are the same matrix.
   solution.compliance = workspace.loaded_ ? workspace.statics_.tangentCompliance() : solution.material_compliance;
+  // Near buckling the tangent grows, and an error of the shape grows in it alike.
+  const double growth = (solution.compliance.diagonal().tail<3>().array() /
+                         solution.material_compliance.diagonal().tail<3>().array()).maxCoeff();
+  solution.numerical_error = solution.numerical_error * std::max(1.0, growth) + 1e-14;  // rounding
   if (!solution.X_BT.p.allFinite() || !solution.compliance.allFinite() || !solution.material_compliance.allFinite())
     solution.status = {SolveCode::kNotConverged, -1, 0.0};
   return solution;

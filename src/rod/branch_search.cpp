@@ -14,6 +14,7 @@ constexpr double kLeastAdvance = 1e-3;  // from zero load on: then it is time to
 constexpr double kLeastAdvanceAround = 1e-5;
 constexpr double kMostBending = 0.5;    // rad, by which a step may miss what the last ones let expect
 constexpr double kMostMotion = 0.4;     // of the tip in a step, over the length
+constexpr double kFoldGrowth = 5.0;
 constexpr double kPush = 0.05;          // deflection by the push, were the robot unloaded, over its length
 
 DeadLoads between(const DeadLoads& a, const DeadLoads& b, double share) {
@@ -110,12 +111,15 @@ BranchEnd BranchSearch::run(const DeadLoads& loads) {
   const bool followed = follow(loads, kLeastAdvance);
   stable_share_ = share_;
   if (followed) return BranchEnd::kLoading;
-  if (!lost_stability_ || finder_.exhausted()) return BranchEnd::kNotConverged;
+  // At a fold there is nothing beyond to settle to; but the compliance has grown, as the inverse root of what is left.
+  const double compliance = SoftestDirection(at_.tangent.topLeftCorner<3, 3>()).compliance;
+  const double unloaded_compliance = SoftestDirection(unloaded->tangent.topLeftCorner<3, 3>()).compliance;
+  const bool at_fold = compliance > kFoldGrowth * unloaded_compliance;
+  if (finder_.exhausted() || !(lost_stability_ || at_fold)) return BranchEnd::kNotConverged;
 
   const DeadLoads last_stable = loads_;
   const Equilibrium before = at_;
-  const double largest_push = kPush * length_ / SoftestDirection(unloaded->tangent.topLeftCorner<3, 3>()).compliance;
-  const Vector3 push = largest_push * directionOfCollapse(before.tangent.topLeftCorner<3, 3>(), moved_);
+  const Vector3 push = kPush * length_ / unloaded_compliance * directionOfCollapse(before.tangent.topLeftCorner<3, 3>(), moved_);
   BranchEnd end = BranchEnd::kUnstable;
   for (double sign : {1.0, -1.0}) {
     loads_ = last_stable;

@@ -209,12 +209,6 @@ double errorBetween(const StiffnessSolution& a, const StiffnessSolution& exact, 
                    complianceError(a.material_compliance, exact.material_compliance, length)});
 }
 
-// How much the tangent amplifies: near buckling an error of the shape is that much larger in the compliance.
-double amplification(const StiffnessSolution& solution, double length) {
-  return 1.0 + scaledCompliance(solution.compliance, length).norm() /
-                   scaledCompliance(solution.material_compliance, length).norm();
-}
-
 }  // namespace
 
 const std::vector<HardDrawClass>& hardDrawClasses() {
@@ -278,7 +272,7 @@ DrawOutcome runHardDraw(const HardDraw& draw) {
     const StiffnessSolution reference = solveCold(StiffnessModel(draw.scene, fine), draw.pressures, draw.wrench);
     outcome.reference_failed = !reference.status.ok();
     if (outcome.reference_failed) return outcome;
-    outcome.error = errorBetween(solution, reference, length) / amplification(reference, length);
+    outcome.error = errorBetween(solution, reference, length);
     outcome.other_branch = !draw.before.empty() && poseError(solution.X_BT, reference.X_BT, length) > 0.01;
   } catch (const std::exception&) {
     outcome.threw = true;
