@@ -1,5 +1,6 @@
 #include "live_stiffness/compliance/stiffness_model.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -75,18 +76,19 @@ StiffnessSolution StiffnessModel::solve(PressuresRef pressures, const Wrench& ti
       return solution;
     }
     if (!report.stable) {
-      solution.status = {SolveCode::kUnstable, -1, 0.0};
+      solution.status = {SolveCode::kUnstable, -1, report.stable_share};
       return solution;
     }
-    solution.numerical_error = report.truncation + report.residual + report.iteration;
+    solution.buckled = report.buckled;
+    solution.numerical_error = (report.truncation + report.residual + report.iteration) * report.amplification;
   } else {
     workspace.statics_.placeUnloaded(backbone);
   }
-  solution.numerical_error += 1e-14;  // rounding
   solution.X_BT = backbone.X_BT;
   solution.material_compliance = accumulateMaterial(backbone, options_.accuracy, workspace.loaded_);
   // Without external load the two are the same matrix.
   solution.compliance = workspace.loaded_ ? workspace.statics_.tangentCompliance() : solution.material_compliance;
+  solution.numerical_error += 1e-14;  // rounding
   // A sum is finite only if all its terms are.
   if (!std::isfinite(solution.X_BT.p.sum() + solution.compliance.sum() + solution.material_compliance.sum()))
     solution.status = {SolveCode::kNotConverged, -1, 0.0};
@@ -125,8 +127,8 @@ std::string StiffnessModel::describe(const SolveStatus& status) const {
     case SolveCode::kNotConverged:
       return "no equilibrium found within the bound on iterations: lower the loads or pressures, or check the scene";
     case SolveCode::kUnstable:
-      return "only an unstable equilibrium was found: the robot would topple under its loads; lower its loads or "
-             "pressures";
+      return "only an unstable equilibrium was found: the robot would topple under its loads, beyond " + value +
+             " of them; lower its loads or pressures";
   }
   return "unknown status";
 }

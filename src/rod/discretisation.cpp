@@ -22,12 +22,15 @@ double bendingOfAnElement(int stages, double accuracy) {
 }
 
 int countOf(double demand, double bending) {
+  if (!(demand < 1e6)) return Backbone::kMaxElements / 2;  // NaN, too; nothing will be found
   return static_cast<int>(std::clamp(std::ceil(demand / bending), 1.0, Backbone::kMaxElements / 2.0));
 }
 
 // Gauss collocation errs by the product of what two expansions leave out: the solution's own and that of its Green's
 // function, which is about alike. The factor covers 99.9 % of random cases within ten (docs/speed_against_error.md).
-double truncationOf(const RodElement& element) { return 16.0 * element.state.truncation * element.state.truncation; }
+double truncationOf(const RodElement& element, double cancellation) {
+  return 16.0 * (element.state.truncation * element.state.truncation + cancellation * element.state.column_truncation);
+}
 
 }  // namespace
 
@@ -66,11 +69,11 @@ bool Discretisation::choose(const DeadLoads& loads, Backbone& backbone) {
     const double load_number = length * std::sqrt(softness * force);
     demand_[part.segment] = std::max(bending, kBendingOfLoadNumber * load_number) * caution_[part.segment];
   }
-  const Choice* best = nullptr;
+  const Choice* best = &choices_.back();
   double cheapest = std::numeric_limits<double>::infinity();
   for (const Choice& choice : choices_) {
     double cost = 0.0;
-    for (double demand : demand_) cost += choice.cost * countOf(demand, choice.bending);
+    for (double demand : demand_) cost += choice.cost * std::max(1.0, std::ceil(demand / choice.bending));
     if (cost < cheapest) {
       cheapest = cost;
       best = &choice;
@@ -81,22 +84,24 @@ bool Discretisation::choose(const DeadLoads& loads, Backbone& backbone) {
   return backbone.resize(best->stages);
 }
 
-double Discretisation::truncation(const Backbone& backbone) const {
+double Discretisation::truncation(double cancellation, const Backbone& backbone) {
+  cancellation_ = cancellation;
   double sum = 0.0;
-  for (const RodElement& element : backbone.elements) sum += truncationOf(element);
+  for (const RodElement& element : backbone.elements) sum += truncationOf(element, cancellation);
   return sum;
 }
 
-bool Discretisation::refine(Backbone& backbone) {
+bool Discretisation::refine(double amplification, Backbone& backbone) {
   bool refined = false;
   auto element = backbone.elements.begin();
   for (size_t segment = 0; segment < demand_.size(); ++segment) {
     int& count = backbone.element_count[segment];
     double error = 0.0, bending = 0.0;
     for (int k = 0; k < count; ++k, ++element) {
-      error += truncationOf(*element);
+      error += truncationOf(*element, cancellation_);
       bending = std::max(bending, element->bending(backbone.passes->stages));
     }
+    error *= amplification;
     if ((error > accuracy_ || bending > 1.4 * kMaxBending) && 2 * count <= Backbone::kMaxElements) {
       count *= 2;
       caution_[segment] *= 2.0;

@@ -138,9 +138,11 @@ struct Passes {
     rotate(e.R_start, {xz + y, yz - x, 1.0 - xx - yy}, column), put(2);
   }
 
+  static constexpr double kDecay = 0.05;
+  static LIVE_STIFFNESS_INLINE double largerOf(double a, double b) { return a > b ? a : b; }
+
   // The highest coefficient alone may pass through zero by accident; the one below it says how large it could be.
   static LIVE_STIFFNESS_INLINE void estimateTruncation(ElementState& e, const GaussLegendre& t) {
-    constexpr double kDecay = 0.05;
     double top = 0.0, below = 0.0;
     for (int i = 0; i < 3; ++i) {
       double a = 0.0, b = 0.0;
@@ -151,8 +153,7 @@ struct Passes {
       top += a * a;
       below += b * b;
     }
-    const double low = kDecay * kDecay * below;
-    e.truncation = __builtin_fabs(e.length) * __builtin_sqrt(top > low ? top : low);
+    e.truncation = __builtin_fabs(e.length) * __builtin_sqrt(largerOf(top, kDecay * kDecay * below));
     // Between the nodes the first coefficient left out shows, once integrated; it goes on shrinking as the last ones.
     double shrink = below > 0.0 ? __builtin_sqrt(top / below) : 0.0;
     shrink = shrink < kDecay ? kDecay : shrink > 1.0 ? 1.0 : shrink;
@@ -254,31 +255,40 @@ struct Passes {
     for (int i = 0; i < 6; ++i) e.stretch[i] = sum(stretch[i]);
   }
 
-  // phi' = B dm + D phi, then m' = M phi - P^T dn, dn the unit forces of columns 3 to 5.
+  // m' = M phi - P^T dn, dn the unit forces of columns 3 to 5.
+  static LIVE_STIFFNESS_INLINE void updateMoments(ElementState& e, const ElementColumns& start, int k) {
+    StageRow rate[3];
+#pragma GCC unroll 4
+    for (int v = 0; v < kVectors; ++v) {
+      Lanes3 m_rate = loadMatrix(e.m_of_phi, v) * load(e.phi[k], v);
+      if (k >= 3) {
+        const StageRow* row = e.p_of_phi + 3 * (k - 3);
+        m_rate = m_rate - Lanes3{load(row[0], v), load(row[1], v), load(row[2], v)};
+      }
+      store(rate, v, m_rate);
+    }
+    const Rows moment = integral(tables().stages, rate);
+#pragma GCC unroll 4
+    for (int v = 0; v < kVectors; ++v) store(e.dm[k], v, splat(start.m[k]) + moment.at[v]);
+  }
+
+  // Moments, then phi' = B dm + D phi. In this order the change of phi shows whatever is not yet right.
   static void columnPass(ElementState& e, const ElementColumns& start) {
-    const GaussLegendre& t = tables().stages;
     Lanes change[2] = {}, size[2] = {};  // base moment and tip force have their own units
     for (int k = 0; k < 6; ++k) {
+      updateMoments(e, start, k);
       StageRow rate[3];
 #pragma GCC unroll 4
       for (int v = 0; v < kVectors; ++v)
         store(rate, v, loadSymmetric(e.bend, v) * load(e.dm[k], v) + loadMatrix(e.phi_of_phi, v) * load(e.phi[k], v));
-      const Rows turn = integral(t, rate);
+      const Rows turn = integral(tables().stages, rate);
 #pragma GCC unroll 4
       for (int v = 0; v < kVectors; ++v) {
         const Lanes3 next = splat(start.phi[k]) + turn.at[v], step = next - load(e.phi[k], v);
         change[k / 3] += dot(step, step);
         size[k / 3] += dot(next, next);
         store(e.phi[k], v, next);
-        Lanes3 m_rate = loadMatrix(e.m_of_phi, v) * next;
-        if (k >= 3) {
-          const StageRow* row = e.p_of_phi + 3 * (k - 3);
-          m_rate = m_rate - Lanes3{load(row[0], v), load(row[1], v), load(row[2], v)};
-        }
-        store(rate, v, m_rate);
       }
-      const Rows moment = integral(t, rate);
-      for (int v = 0; v < kVectors; ++v) store(e.dm[k], v, splat(start.m[k]) + moment.at[v]);
     }
     const double a = sum(change[0]) / (sum(size[0]) + 1e-300), b = sum(change[1]) / (sum(size[1]) + 1e-300);
     e.column_change = __builtin_sqrt(a + b);
@@ -298,10 +308,11 @@ struct Passes {
     }
   }
 
-  static void columnEnd(const ElementState& e, const ElementColumns& start, ElementColumns& end) {
+  static void columnEnd(ElementState& e, const ElementColumns& start, ElementColumns& end) {
     static constexpr int kSymmetric[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
     const GaussLegendre& t = tables().stages;
     for (int k = 0; k < 6; ++k) {
+      updateMoments(e, start, k);
       Lanes3 p{};
       for (int v = 0; v < kVectors; ++v) p = p + load(t.b, v) * (loadMatrix(e.p_of_phi, v) * load(e.phi[k], v));
       const double moved[3] = {sum(p.x), sum(p.y), sum(p.z)};
@@ -311,6 +322,23 @@ struct Passes {
         end.m[k][i] = e.dm[k][i][kStages];
       }
     }
+    // As estimateTruncation() of the shape, which says nothing of a straight rod under load.
+    Lanes top_row[kVectors], below_row[kVectors];
+    for (int v = 0; v < kVectors; ++v) top_row[v] = load(t.legendre[kStages - 1], v), below_row[v] = load(t.legendre[kStages - 2], v);
+    double top = 0.0, below = 0.0, size = 1e-300;
+    for (int k = 0; k < 3; ++k)
+      for (int i = 0; i < 3; ++i) {
+        Lanes a{}, b{};
+        for (int v = 0; v < kVectors; ++v) {
+          const Lanes dm = load(e.dm[k][i], v);
+          a += top_row[v] * dm;
+          b += below_row[v] * dm;
+        }
+        const double x = sum(a), y = sum(b);
+        top += x * x, below += y * y, size += end.phi[k][i] * end.phi[k][i];
+      }
+    const double turn = e.length * largerOf(e.bend_xx, e.bend_yy);  // by the unit moment
+    e.column_truncation = turn * turn * largerOf(top, kDecay * kDecay * below) / size;
   }
 
   static LIVE_STIFFNESS_INLINE Lanes3 denseIntegral(const GaussLegendre& t, const NodeRow (&f)[3], int v) {

@@ -85,10 +85,7 @@ bool integrate(const ElementPasses& passes, RodElement& e) {
 
 void resetColumns(const ElementColumns& start, ElementState& state) {
   for (int k = 0; k < 6; ++k)
-    for (int i = 0; i < 3; ++i) {
-      std::fill_n(state.phi[k][i], kMaxStages + 1, start.phi[k][i]);
-      std::fill_n(state.dm[k][i], kMaxStages + 1, start.m[k][i]);
-    }
+    for (int i = 0; i < 3; ++i) std::fill_n(state.phi[k][i], kMaxStages + 1, start.phi[k][i]);
 }
 
 double propagate(const ElementPasses& passes, RodElement& e, const ElementColumns& start, double goal,

@@ -27,10 +27,9 @@ void prepare(const Chain& chain, const DeadLoads& loads, Backbone& backbone) {
   }
 }
 
-Sweep sweep(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, bool finish, Backbone& backbone) {
+Sweep sweep(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, Pass pass, Backbone& backbone) {
   Sweep result;
   result.sound = true;
-  const auto run = finish ? backbone.passes->finish : backbone.passes->pass;
   const double largest_size = largestSize(backbone.passes->stages);
   Pose X;
   Vector3 n = loads.baseForce(chain);
@@ -47,7 +46,13 @@ Sweep sweep(const Chain& chain, const DeadLoads& loads, const Vector3& base_mome
     }
     for (int k = 0; k < backbone.element_count[part.segment]; ++k, ++element) {
       element->setStart(X, n, m);
-      run(element->state);
+      switch (pass) {
+        case Pass::kOnce: backbone.passes->pass(element->state); break;
+        case Pass::kFinish: backbone.passes->finish(element->state); break;
+        case Pass::kAnew:
+          resetGuess(*element);
+          result.sound = integrate(*backbone.passes, *element) && result.sound;
+      }
       X = element->X_end();
       n = element->n_end();
       m = element->m_end();
@@ -62,13 +67,14 @@ Sweep sweep(const Chain& chain, const DeadLoads& loads, const Vector3& base_mome
   return result;
 }
 
-bool shoot(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, Backbone& backbone,
-           Vector3& residual) {
+bool shoot(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, bool nodes_hold_guess,
+           Backbone& backbone, Vector3& residual) {
   constexpr int kMaxSweeps = 100;
   constexpr double kConverged = 4e-15;  // rad
   double last_change = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMaxSweeps; ++i) {
-    const Sweep s = sweep(chain, loads, base_moment, true, backbone);
+    const bool anew = i == 0 && !nodes_hold_guess;
+    const Sweep s = sweep(chain, loads, base_moment, anew ? Pass::kAnew : Pass::kFinish, backbone);
     residual = s.residual;
     if (!s.sound) return false;
     // Rounding can leave a last-digit wobble just above the bound: stop there once it no longer shrinks.

@@ -3,10 +3,10 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
+#include "live_stiffness/rod/conjugate_points.h"
 #include "live_stiffness/rod/kinematics.h"
 
 namespace live_stiffness {
@@ -16,16 +16,38 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kResidualGoal = 1e-12;     // rad, see StaticsReport::residual
 constexpr double kResidualAccepted = 1e-9;  // rad, when rounding stops it short of the goal
 constexpr double kRoughColumns = 1e-2;      // relative change, enough for Newton steps
+constexpr double kMostAmplification = 1e6;
+
+// All pivots of L D L^T are positive.
+bool isPositiveDefinite(Matrix6 a) {
+#pragma GCC unroll 6
+  for (int k = 0; k < 6; ++k) {
+    if (!(a(k, k) > 0.0)) return false;
+    const double inverse = 1.0 / a(k, k);
+#pragma GCC unroll 6
+    for (int j = k + 1; j < 6; ++j) {
+      const double factor = a(j, k) * inverse;
+#pragma GCC unroll 6
+      for (int i = j; i < 6; ++i) a(i, j) -= factor * a(i, k);
+    }
+  }
+  return true;
+}
 
 }  // namespace
 
 StaticsSolver::StaticsSolver(const Scene& scene, double accuracy, int stages)
-    : chain_(scene), accuracy_(accuracy), discretisation_(chain_, accuracy, stages) {}
+    : chain_(scene), length_(scene.length()), accuracy_(accuracy), discretisation_(chain_, accuracy, stages) {}
+
+void StaticsSolver::reset() {
+  warm_ = has_columns_ = false;
+  amplification_ = 1.0;
+  discretisation_.reset();
+}
 
 bool StaticsSolver::march(const DeadLoads& loads, const Vector3& base_moment, Backbone& backbone, Vector3& residual) {
-  if (shoot(chain_, loads, base_moment, backbone, residual)) return true;
-  resetGuesses(loads, backbone);
-  return false;
+  nodes_hold_guess_ = shoot(chain_, loads, base_moment, nodes_hold_guess_, backbone, residual);
+  return nodes_hold_guess_;
 }
 
 bool StaticsSolver::updateInverse(const DeadLoads& loads, double goal, Backbone& backbone) {
@@ -38,19 +60,20 @@ bool StaticsSolver::updateInverse(const DeadLoads& loads, double goal, Backbone&
 
 // Sweeps of one pass an element, each followed by a step of the base moment with the kept inverse: shape and moment
 // converge together, linearly, by a factor of about ten a sweep. Without trouble it takes three to ten.
-bool StaticsSolver::quick(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
+bool StaticsSolver::quick(const DeadLoads& loads, bool has_inverse, Backbone& backbone, StaticsReport& report) {
   constexpr int kMaxSweeps = 40, kSweepsBeforeInverse = 2;
   constexpr double kSlowestRate = 0.2, kRounding = 1e-13;
-  const double goal = std::max(0.2 * accuracy_, 1e-15);
-  bool has_inverse = warm_;
+  const double goal = std::max(0.2 * accuracy_ / amplification_, 1e-15);
   if (!has_inverse) residual_inverse_.setIdentity();  // right but for the load's own effect
   double last = kInfinity, expected = kInfinity;
   int growing = 0;
-  for (int i = 0; i < kMaxSweeps; ++i) {
+  for (int i = 0; i < kMaxSweeps && report.iterations < kMaxIterations; ++i) {
     const bool make_inverse = !has_inverse && i >= kSweepsBeforeInverse;
     const bool finish = expected <= goal || make_inverse;
     ++report.iterations;
-    const Sweep s = sweep(chain_, loads, base_moment_, finish, backbone);
+    const Pass pass = !nodes_hold_guess_ ? Pass::kAnew : finish ? Pass::kFinish : Pass::kOnce;
+    const Sweep s = sweep(chain_, loads, base_moment_, pass, backbone);
+    nodes_hold_guess_ = s.sound;
     report.residual = bendingOf(s.residual);
     const double error = std::max(s.change, report.residual);
     if (!s.sound || (growing += error > last) > 3) return false;
@@ -123,51 +146,16 @@ bool StaticsSolver::newton(const DeadLoads& loads, Backbone& backbone, int max_i
   return false;
 }
 
-// Loads grow from zero in steps of adaptive size. The base moment of the next step is extrapolated from the last three:
-// on a long hanging chain a shot strays exponentially, so that a moment scaled with the load would not do.
-bool StaticsSolver::continuation(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
-  std::array<double, 3> reached = {0.0, 0.0, 0.0};  // fractions of the load, newest first
-  std::array<Vector3, 3> moments = {Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
-  int known = 1;  // without load there is no moment
-  double advance = 0.25;
-  while (reached[0] < 1.0) {
-    const double trial = std::min(1.0, reached[0] + advance);
-    base_moment_.setZero();
-    for (int i = 0; i < known; ++i) {
-      double weight = 1.0;  // Lagrange's
-      for (int j = 0; j < known; ++j)
-        if (j != i) weight *= (trial - reached[j]) / (reached[i] - reached[j]);
-      base_moment_ += weight * moments[i];
-    }
-    warm_ = false;
-    prepare(chain_, loads.scaled(trial), backbone);
-    if (newton(loads.scaled(trial), backbone, 12, report)) {
-      for (int i = 2; i > 0; --i) {
-        reached[i] = reached[i - 1];
-        moments[i] = moments[i - 1];
-      }
-      reached[0] = trial;
-      moments[0] = base_moment_;
-      known = std::min(known + 1, 3);
-      advance *= 1.5;
-    } else {
-      advance *= 0.5;
-      resetGuesses(loads.scaled(trial), backbone);
-    }
-    if (advance < 1e-3 || report.iterations >= kMaxIterations) return false;
-  }
-  return true;
-}
-
-void StaticsSolver::resetGuesses(const DeadLoads& loads, Backbone& backbone) {
-  live_stiffness::placeUnloaded(chain_, backbone);
+void StaticsSolver::forgetGuesses(const DeadLoads& loads, Backbone& backbone) {
   prepare(chain_, loads, backbone);
-  warm_ = has_columns_ = false;
+  warm_ = has_columns_ = nodes_hold_guess_ = false;
 }
 
 // The unloaded shape, and the base moment that the loads would exert on it.
 void StaticsSolver::placeFresh(const DeadLoads& loads, Backbone& backbone) {
-  resetGuesses(loads, backbone);
+  live_stiffness::placeUnloaded(chain_, backbone);
+  forgetGuesses(loads, backbone);
+  nodes_hold_guess_ = true;
   base_moment_ = angular(loads.tip) + backbone.X_BT.p.cross(linear(loads.tip) + chain_.tip_mass * loads.gravity);
   const GaussLegendre& table = gaussLegendre(backbone.passes->stages);
   auto element = backbone.elements.begin();
@@ -195,79 +183,180 @@ void StaticsSolver::placeUnloaded(Backbone& backbone) {
   live_stiffness::placeUnloaded(chain_, backbone);
 }
 
-// along_loads: by load continuation from the unloaded shape alone, otherwise by the quickest way that works.
-bool StaticsSolver::findEquilibrium(const DeadLoads& loads, bool along_loads, Backbone& backbone,
-                                    StaticsReport& report) {
-  bool converged;
-  do {
-    if (!warm_) placeFresh(loads, backbone);
-    else prepare(chain_, loads, backbone);
-    converged = !along_loads && quick(loads, backbone, report);
-    if (!converged && !along_loads) {
+// By the quickest way that works, whichever branch that leads to.
+bool StaticsSolver::findEquilibrium(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
+  bool has_inverse = warm_;
+  if (warm_) prepare(chain_, loads, backbone);
+  else placeFresh(loads, backbone);
+  while (true) {
+    bool converged = quick(loads, has_inverse, backbone, report);
+    if (!converged) {
       placeFresh(loads, backbone);
       converged = newton(loads, backbone, 30, report);
     }
-    if (!converged) {
-      placeFresh(loads, backbone);
-      converged = continuation(loads, backbone, report);
+    if (!converged || !findTangent(loads, backbone, report)) return false;
+    has_inverse = true;
+    if (discretisation_.refine(report.amplification, backbone)) {
+      forgetGuesses(loads, backbone);
+      has_inverse = false;
+    } else if (!((report.residual + report.iteration) * report.amplification > accuracy_) ||
+               report.iterations >= kMaxIterations / 2) {
+      return true;
     }
-    report.truncation = discretisation_.truncation(backbone);
-    warm_ = false;
-  } while (converged && discretisation_.refine(backbone));
-  return converged;
+  }
+}
+
+// Settles to one load of a branch search, with more elements where the robot bends more by now.
+class StaticsSolver::Finder : public EquilibriumFinder {
+ public:
+  Finder(StaticsSolver& solver, Backbone& backbone, StaticsReport& report)
+      : solver_(solver), backbone_(backbone), report_(report) {}
+
+  std::optional<Equilibrium> settle(const DeadLoads& loads, const Vector3& base_moment) override {
+    solver_.base_moment_ = base_moment;
+    prepare(solver_.chain_, loads, backbone_);
+    do {
+      solver_.warm_ = false;
+      if (!solver_.newton(loads, backbone_, 12, report_) || !solver_.findTangent(loads, backbone_, report_)) {
+        solver_.forgetGuesses(loads, backbone_);
+        return std::nullopt;
+      }
+    } while (refine(loads));
+    return Equilibrium{solver_.base_moment_, backbone_.X_BT.p, solver_.tangent_,
+                       solver_.isStable(loads, backbone_, report_)};
+  }
+  double bendingOf(const Vector3& moment) const override { return solver_.bendingOf(moment); }
+  bool exhausted() const override { return report_.iterations >= kMaxIterations; }
+
+ private:
+  bool refine(const DeadLoads& loads) {
+    if (!solver_.discretisation_.refine(report_.amplification, backbone_)) return false;
+    solver_.forgetGuesses(loads, backbone_);
+    return true;
+  }
+
+  StaticsSolver& solver_;
+  Backbone& backbone_;
+  StaticsReport& report_;
+};
+
+// Sweeps to the finest goal from a solution; takes it back if they fail.
+void StaticsSolver::polish(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
+  const Vector3 before = base_moment_;
+  StaticsReport finer;
+  if (quick(loads, true, backbone, finer) && findTangent(loads, backbone, finer)) {
+    report.residual = finer.residual;
+    report.iteration = finer.iteration;
+  } else {
+    Vector3 residual;
+    base_moment_ = before;
+    forgetGuesses(loads, backbone);
+    march(loads, before, backbone, residual);
+    findTangent(loads, backbone, report);
+  }
+  report.iterations += finer.iterations;
+}
+
+bool StaticsSolver::findAlongLoads(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
+  discretisation_.choose(loads, backbone);
+  placeFresh(DeadLoads(), backbone);
+  Finder finder(*this, backbone, report);
+  BranchSearch search(finder, length_);
+  const BranchEnd end = search.run(loads);
+  report.buckled = end == BranchEnd::kBuckled;
+  report.stable = report.buckled || end == BranchEnd::kLoading;
+  report.stable_share = search.stableShare();
+  if (report.stable && (report.residual + report.iteration) * report.amplification > accuracy_)
+    polish(loads, backbone, report);
+  return end != BranchEnd::kNotConverged;
 }
 
 bool StaticsSolver::findTangent(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
-  ElementColumns tip;
-  const double change = tipColumns(chain_, loads, !has_columns_, std::max(0.3 * accuracy_, 1e-14), backbone, tip);
-  has_columns_ = std::isfinite(change);
-  if (!has_columns_) return false;
-  report.iteration += change;
-  const auto phi = columnsOf(tip.phi), p = columnsOf(tip.p), m = columnsOf(tip.m);
-  residual_inverse_ = m.leftCols<3>().inverse();
-  // dm0 = A^-1 (dM - B df), from the residual's columns [A, B]; C maps [df; dM] to the twist of T.
-  const Matrix3 m0_of_force = -residual_inverse_ * m.rightCols<3>();
-  tangent_.topLeftCorner<3, 3>() = p.rightCols<3>() + p.leftCols<3>() * m0_of_force;
-  tangent_.topRightCorner<3, 3>() = p.leftCols<3>() * residual_inverse_;
-  tangent_.bottomLeftCorner<3, 3>() = phi.rightCols<3>() + phi.leftCols<3>() * m0_of_force;
-  tangent_.bottomRightCorner<3, 3>() = phi.leftCols<3>() * residual_inverse_;
-  return tangent_.allFinite();
+  const double goal = 0.2 * accuracy_, shape = report.iteration;
+  double cancellation = 1.0;  // on a long taut chain the columns are far larger than the compliance made of them
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    ElementColumns tip;
+    const double column_goal = std::max(goal / (amplification_ * cancellation), 1e-14);
+    const double change = tipColumns(chain_, loads, !has_columns_, column_goal, backbone, tip);
+    has_columns_ = std::isfinite(change);
+    if (!has_columns_) return false;
+    const auto phi = columnsOf(tip.phi), p = columnsOf(tip.p), m = columnsOf(tip.m);
+    residual_inverse_ = m.leftCols<3>().inverse();
+    // dm0 = A^-1 (dM - B df), from the residual's columns [A, B]; C maps [df; dM] to the twist of T.
+    const Matrix3 m0_of_force = -residual_inverse_ * m.rightCols<3>();
+    tangent_.topLeftCorner<3, 3>() = p.rightCols<3>() + p.leftCols<3>() * m0_of_force;
+    tangent_.topRightCorner<3, 3>() = p.leftCols<3>() * residual_inverse_;
+    tangent_.bottomLeftCorner<3, 3>() = phi.rightCols<3>() + phi.leftCols<3>() * m0_of_force;
+    tangent_.bottomRightCorner<3, 3>() = phi.leftCols<3>() * residual_inverse_;
+    if (!tangent_.allFinite()) return false;
+    amplification_ = std::clamp(tangent_.diagonal().tail<3>().cwiseAbs().maxCoeff() / stiffest_, 1.0, kMostAmplification);
+    cancellation = std::max(1.0, p.rightCols<3>().norm() / tangent_.topLeftCorner<3, 3>().norm());
+    report.iteration = shape + change * cancellation;
+    report.truncation = discretisation_.truncation(cancellation, backbone);
+    if (change * amplification_ * cancellation <= goal) break;
+  }
+  report.amplification = amplification_;
+  return true;
 }
 
-// Positive definite: all pivots of L D L^T are positive.
-bool StaticsSolver::isStable() const {
-  Matrix6 a = 0.5 * (tangent_ + tangent_.transpose());
-#pragma GCC unroll 6
-  for (int k = 0; k < 6; ++k) {
-    if (!(a(k, k) > 0.0)) return false;
-    const double inverse = 1.0 / a(k, k);
-#pragma GCC unroll 6
-    for (int j = k + 1; j < 6; ++j) {
-      const double factor = a(j, k) * inverse;
-#pragma GCC unroll 6
-      for (int i = j; i < 6; ++i) a(i, j) -= factor * a(i, k);
+bool StaticsSolver::isStable(const DeadLoads& loads, const Backbone& backbone, const StaticsReport& report) const {
+  // Of a neutral equilibrium rounding, or the error of discretisation, decides what is left of the compliance. So it
+  // must not be larger than that of the softest segment by more than leaves a digit.
+  const double neutral = std::min(1e7, 0.1 / (report.truncation + report.residual + report.iteration));
+  // Of a rod without elongation the compliance is singular, and rounding decides its sign. Beyond buckling the negative
+  // part is as large as the loads are small.
+  constexpr double kRounding = 1e-11;
+  Matrix6 symmetric_part = 0.5 * (tangent_ + tangent_.transpose());
+  const double translation = symmetric_part.topLeftCorner<3, 3>().trace();
+  const double rotation = symmetric_part.bottomRightCorner<3, 3>().trace();
+  if (!(translation > 0.0) || !(rotation < neutral * softness_)) return false;
+  symmetric_part.diagonal().head<3>().array() += kRounding * translation;
+  symmetric_part.diagonal().tail<3>().array() += kRounding * rotation;
+  return isPositiveDefinite(symmetric_part) && !(mayBuckle(loads, backbone) && hasConjugatePoint(backbone));
+}
+
+// False if the loads are so small that there is one equilibrium only: below 1, this bounds the ratio of load and buckling
+// load of the straight robot from above, by the trace of int |n| int c ds dl (exact for a soft hinge, 0.81 for a uniform
+// column under a tip load). A tip moment alone winds the rod up by half a turn before it has a choice.
+bool StaticsSolver::mayBuckle(const DeadLoads& loads, const Backbone& backbone) const {
+  Vector3 n = loads.baseForce(chain_);
+  double softness = 0.0, load_number = 0.0;  // of all before, rad / (N m)
+  for (const Chain::Part& part : chain_.parts) {
+    if (part.segment >= 0) {
+      const RestState& rest = backbone.rest[part.segment];
+      const double length = rest.stretch * part.length;
+      const double own = rest.c.bending_torsion.diagonal().maxCoeff() * length;
+      load_number += n.norm() * length * (softness + 0.5 * own);
+      softness += own;
+    } else {
+      load_number += n.norm() * part.length * softness;
     }
+    n -= part.mass * loads.gravity;
   }
-  return true;
+  load_number += n.norm() * chain_.tip_offset.norm() * softness + angular(loads.tip).norm() * softness / kPi;
+  return !(load_number < 1.0);
 }
 
 StaticsReport StaticsSolver::solve(const DeadLoads& loads, Backbone& backbone) {
   StaticsReport report;
-  softness_ = 0.0;
+  softness_ = stiffest_ = 0.0;
   for (const Chain::Part& part : chain_.parts)
     if (part.segment >= 0) {
       const RestState& rest = backbone.rest[part.segment];
-      softness_ = std::max(softness_, rest.c.bending_torsion.diagonal().maxCoeff() * rest.stretch * part.length);
+      const double length = rest.stretch * part.length;
+      softness_ = std::max(softness_, rest.c.bending_torsion.diagonal().maxCoeff() * length);
+      stiffest_ += rest.c.bending_torsion.diagonal().minCoeff() * length;
     }
   if (discretisation_.choose(loads, backbone)) warm_ = has_columns_ = false;
-  report.converged = findEquilibrium(loads, false, backbone, report) && findTangent(loads, backbone, report);
-  report.stable = report.converged && isStable();
-  if (report.converged && !report.stable) {
-    // Newton's method takes any equilibrium; the one that the robot sags to as its loads grow is more likely stable.
+  // Newton's method takes any equilibrium, if it finds one. So where there may be several it is trusted near a stable
+  // one only.
+  if (warm_ || !mayBuckle(loads, backbone)) {
+    report.converged = findEquilibrium(loads, backbone, report);
+    report.stable = report.converged && isStable(loads, backbone, report);
+  }
+  if (!report.stable) {
     StaticsReport second;
-    warm_ = has_columns_ = false;
-    second.converged = findEquilibrium(loads, true, backbone, second) && findTangent(loads, backbone, second);
-    second.stable = second.converged && isStable();
+    second.converged = findAlongLoads(loads, backbone, second);
     second.iterations += report.iterations;
     report = second;
   }

@@ -5,6 +5,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "live_stiffness/rod/statics.h"
+#include "support/bare_rod.h"
 #include "support/matrix_near.h"
 #include "support/shared_data.h"
 
@@ -14,33 +15,15 @@ namespace {
 constexpr char kFile[] = "rod_benchmarks.json";
 constexpr double kPromised = 1e-6;
 
-// A rod of length L (m), bending stiffness EI and mass 1 kg, along z, whose section says nothing: statics takes rest
-// strain and compliance from the backbone.
-struct Rod {
-  Scene scene;
-  RestState rest;
-
-  Rod(double length, double EI, double GJ, double GA, double EA) {
-    Segment segment;
-    segment.length = length;
-    segment.section.outer_radius = 0.01 * length;
-    segment.section.density = 1.0 / (segment.section.area(1.0) * length);
-    scene.chain.push_back(segment);
-    rest.c.shear_elongation.diagonal() << 1.0 / GA, 1.0 / GA, 1.0 / EA;
-    rest.c.bending_torsion.diagonal() << 1.0 / EI, 1.0 / EI, 1.0 / GJ;
-  }
-
-  Pose tip(const DeadLoads& loads) const {
-    StaticsSolver solver(scene, 1e-12);
-    Backbone backbone(scene);
-    backbone.rest[0] = rest;
-    EXPECT_TRUE(solver.solve(loads, backbone).converged);
-    return backbone.X_BT;
-  }
-};
+Pose tipOf(const BareRod& rod, const DeadLoads& loads) {
+  StaticsSolver solver(rod.scene, 1e-12);
+  Backbone backbone = rod.backbone();
+  EXPECT_TRUE(solver.solve(loads, backbone).converged);
+  return backbone.X_BT;
+}
 
 // EI = L = 1, shear and elongation `ratio` times stiffer than bending.
-Rod stiffRod(double ratio) { return {1.0, 1.0, 1.0, ratio, ratio}; }
+BareRod stiffRod(double ratio) { return {1.0, 1.0, 1.0, ratio, ratio}; }
 
 // The references are inextensible. Elongation and shear are of relative size P / GA = (P L^2 / EI) / ratio, so the
 // error is of first order in 1 / ratio (see StiffShearAndElongationConverge...): at P L^2 / EI = 20 a ratio of 1e8
@@ -58,7 +41,7 @@ TEST(RodBenchmarks, TipDeadLoadElastica) {
   SKIP_WITHOUT(path, kFile);
   for (const YAML::Node& row : YAML::LoadFile(*path)["tip_dead_load_elastica"]["rows"])
     for (double ratio : {kInextensible, std::numeric_limits<double>::infinity()}) {
-      const Pose X = stiffRod(ratio).tip(sideways(row["PL2_EI"].as<double>()));
+      const Pose X = tipOf(stiffRod(ratio), sideways(row["PL2_EI"].as<double>()));
       const double theta = std::atan2(X.R(0, 2), X.R(2, 2));
       const Vector3 expected(row["w_L"].as<double>(), row["u_L"].as<double>(), row["theta"].as<double>());
       EXPECT_TRUE(matrixNear(Vector3(X.p.x(), 1.0 - X.p.z(), theta), expected, kPromised)) << row["PL2_EI"];
@@ -67,8 +50,8 @@ TEST(RodBenchmarks, TipDeadLoadElastica) {
 
 TEST(RodBenchmarks, StiffShearAndElongationConvergeToTheInextensibleRodInFirstOrder) {
   const DeadLoads loads = sideways(10.0);
-  const Vector3 limit = stiffRod(std::numeric_limits<double>::infinity()).tip(loads).p;
-  const auto error = [&](double ratio) { return (stiffRod(ratio).tip(loads).p - limit).norm(); };
+  const Vector3 limit = tipOf(stiffRod(std::numeric_limits<double>::infinity()), loads).p;
+  const auto error = [&](double ratio) { return (tipOf(stiffRod(ratio), loads).p - limit).norm(); };
   for (double ratio : {1e4, 1e5, 1e6, 1e7}) EXPECT_NEAR(error(ratio) / error(10.0 * ratio), 10.0, 0.1) << ratio;
   EXPECT_GT(error(1e6), kPromised);  // so a ratio of 1e6 would not do
   EXPECT_LT(error(kInextensible), 0.2 * kPromised);
@@ -80,28 +63,10 @@ TEST(RodBenchmarks, UniformDeadLoad) {
   for (const YAML::Node& row : YAML::LoadFile(*path)["uniform_distributed_load"]["rows"]) {
     DeadLoads loads;
     loads.gravity.x() = row["qL3_EI"].as<double>();  // on 1 kg over 1 m
-    const Vector3 p = stiffRod(kInextensible).tip(loads).p;
+    const Vector3 p = tipOf(stiffRod(kInextensible), loads).p;
     const Vector3 expected(row["dead"][1].as<double>(), 0.0, row["dead"][0].as<double>());
     EXPECT_TRUE(matrixNear(p, expected, kPromised)) << row["qL3_EI"];
   }
-}
-
-// Position of the tip seen from the base of a rod whose wrench at the tip is given in the tip's own axes: from there
-// to the base it is an initial value problem.
-Vector3 tipByMarchingFromTip(const Rod& rod, const Vector3& tip_force, const Vector3& follower_load) {
-  constexpr int kElements = 32;
-  const ElementPasses& passes = elementPasses(kMaxStages, Simd::kBest);
-  RodElement element;
-  element.setSection(rod.rest);
-  element.setLoads(Vector3::Zero(), follower_load);
-  element.setStart(Pose(), tip_force, Vector3::Zero());
-  element.state.length = -std::get<Segment>(rod.scene.chain[0]).length / kElements;
-  for (int i = 0; i < kElements; ++i) {
-    resetGuess(element);
-    EXPECT_TRUE(integrate(passes, element));
-    element.setStart(element.X_end(), element.n_end(), element.m_end());
-  }
-  return element.X_start().inverse().p;
 }
 
 TEST(RodBenchmarks, UniformFollowerLoad) {
@@ -119,7 +84,7 @@ TEST(RodBenchmarks, FollowerTipLoad) {
   const auto path = sharedDataFile(kFile);
   SKIP_WITHOUT(path, kFile);
   const double length = 100.0;
-  const Rod rod(length, 3.5e7, 3.5e7, 1.61538e8, 4.2e8);  // GJ plays no part in the plane
+  const BareRod rod(length, 3.5e7, 3.5e7, 1.61538e8, 4.2e8);  // GJ plays no part in the plane
   for (const YAML::Node& row : YAML::LoadFile(*path)["follower_tip_load"]["rows"]) {
     const Vector3 p = tipByMarchingFromTip(rod, row["F"].as<double>() * Vector3::UnitX(), Vector3::Zero());
     const Vector3 expected(row["v"].as<double>(), 0.0, length + row["u"].as<double>());
@@ -136,11 +101,11 @@ TEST(RodBenchmarks, BatheBolourchiBend) {
     const std::string variant = row["variant"].as<std::string>();
     ASSERT_TRUE(variant == "kappa 5/6, GJ=G/6" || variant == "kappa 1, GJ=G/6") << variant;
     const double kappa = variant[6] == '5' ? 5.0 / 6.0 : 1.0;
-    Rod rod(radius * kPi / 4.0, E / 12.0, G / 6.0, kappa * G, E);
+    BareRod rod(radius * kPi / 4.0, E / 12.0, G / 6.0, kappa * G, E);
     rod.rest.curvature = Vector3(0.0, 1.0 / radius, 0.0);
     DeadLoads loads;
     loads.tip[1] = -row["F"].as<double>();
-    const Vector3 p = rod.tip(loads).p;
+    const Vector3 p = tipOf(rod, loads).p;
     const Vector3 expected(row["tip"][0].as<double>(), row["tip"][1].as<double>(), row["tip"][2].as<double>());
     EXPECT_TRUE(matrixNear(Vector3(p.x(), p.z(), -p.y()), expected, kPromised * radius)) << variant << row["F"];
   }

@@ -16,14 +16,15 @@ enum class SolveCode {
   kInvalidInput = 1,  // wrong channel count, or a value that is not finite or not physical
   kOutOfRange = 2,    // the pressures stretch a section beyond the range where it has positive area
   kNotConverged = 3,  // no equilibrium found within the bound on iterations
-  kUnstable = 4,      // only an unstable equilibrium was found: the robot would topple, or is at the brink of it
+  kUnstable = 4,      // only an unstable equilibrium was found: the robot would topple, is at the brink of it, or may
+                      // lean in any direction (a symmetric column beyond buckling: no finite compliance)
 };
 
 // Why a solve failed, without allocation; text() is for people.
 struct SolveStatus {
   SolveCode code = SolveCode::kOk;
   int index = -1;      // channel (kInvalidInput) or segment (kOutOfRange) concerned; -1: none
-  double value = 0.0;  // offending value: pressure, Pa; stretch; residual, rad
+  double value = 0.0;  // offending value: pressure, Pa; stretch; residual, rad; share of the loads (kUnstable)
 
   bool ok() const { return code == SolveCode::kOk; }
 };
@@ -34,6 +35,8 @@ const char* codeName(SolveCode code);
 struct StiffnessSolution {
   SolveStatus status;  // unless ok, nothing below holds
   int iterations = 0;  // passes over the chain; 0: closed form
+  bool buckled = false;  // the robot's shape was seen to lose its stability as the loads grew, and this is the stable one
+                         // that it gives way to; so a small change of load may have moved it far
   double numerical_error = 0.0;  // estimated relative error of pose and compliance, an upper estimate
   Pose X_BT;                     // tip point, m
   Matrix6 compliance = Matrix6::Zero();           // tangent, of T under a dead wrench at T, base axes

@@ -20,7 +20,7 @@ struct ElementPasses {
   // Moves the guess g along with a change of the base moment (N m), to first order, by the columns held.
   void (*follow)(ElementState&, const double (&base_moment_change)[3]);
   // Columns at the end from those at the nodes.
-  void (*column_end)(const ElementState&, const ElementColumns& start, ElementColumns& end);
+  void (*column_end)(ElementState&, const ElementColumns& start, ElementColumns& end);
   // What stations() needs, and the integral of material compliance; after place_unloaded(), or after finish() under
   // dead loads. improve: makes interior_error about twenty times smaller.
   void (*material)(ElementState&, bool unloaded, bool improve);

@@ -50,7 +50,8 @@ struct ElementState {
   // Columns at the nodes and the end, and rotation at the start; kept as guess for the next solve.
   StageRow phi[6][3], dm[6][3];
   double phi_start[6][3];
-  double column_change;  // of the last pass, relative
+  double column_change;      // of the last pass, relative
+  double column_truncation;  // square of the highest Legendre coefficient of their rate, as it turns the end, relative
 
   // Filled by material(), on a Gauss grid of its own: densities of compliance about the element's start, tangents;
   // Legendre coefficients of g_rate; integral of the densities.

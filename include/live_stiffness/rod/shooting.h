@@ -16,12 +16,19 @@ struct Sweep {
 // hold follow the change of rest curvature; once before sweeps.
 void prepare(const Chain& chain, const DeadLoads& loads, Backbone& backbone);
 
-// One pass over all elements under a base moment. finish: fills the shape and X_BT, too.
-Sweep sweep(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, bool finish, Backbone& backbone);
+enum class Pass {
+  kOnce,    // one fixed-point pass an element
+  kFinish,  // the same, and the shape and X_BT
+  kAnew,    // every element integrated without a guess
+};
 
-// Sweeps until the shape has converged to rounding. False if it does not, or is not sound.
-bool shoot(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, Backbone& backbone,
-           Vector3& residual);
+// One sweep over all elements, from base to tip, under a base moment.
+Sweep sweep(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, Pass pass, Backbone& backbone);
+
+// Sweeps until the shape has converged to rounding. False if it does not, or is not sound; the nodes then hold no
+// guess.
+bool shoot(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, bool nodes_hold_guess,
+           Backbone& backbone, Vector3& residual);
 
 // Derivatives of the state at T with respect to [base moment, tip force] (columns), after a finished sweep; their m is
 // that of the residual. Elements keep their columns as guess unless `fresh`. Returns the largest relative change of the last

@@ -4,6 +4,7 @@
 // For dead loads the force n(s) is known in advance (weights beyond s plus the tip force), so only the base moment m0
 // is unknown: three unknowns for any number of segments and links. The residual is the moment left over at T.
 
+#include "live_stiffness/rod/branch_search.h"
 #include "live_stiffness/rod/discretisation.h"
 #include "live_stiffness/rod/shooting.h"
 
@@ -11,25 +12,34 @@ namespace live_stiffness {
 
 struct StaticsReport {
   bool converged = false;
-  bool stable = false;         // the tangent compliance is positive definite; false: buckled over, or at the brink
-  int iterations = 0;          // passes over the chain, all attempts together; at most 2 kMaxIterations
+  bool stable = false;         // the tangent compliance is positive definite and the robot stable inside; false: buckled
+                               // over, at the brink, or neutral (a symmetric column that may lean in any direction)
+  bool buckled = false;        // the branch that starts at zero load was seen to lose its stability before the full
+                               // loads; the result is on the stable one that it gives way to
+  double stable_share = 1.0;   // of the loads, up to which that branch was seen to be stable
+  int iterations = 0;          // sweeps and converged shots, all attempts together; at most 2 kMaxIterations
   double residual = 0.0;       // of the tip moment, as bending of the softest segment over its length, rad
   double truncation = 0.0;     // estimated relative error of discretisation
-  double iteration = 0.0;      // relative change of shape and columns in their last passes
+  double iteration = 0.0;      // estimated relative error of shape and columns, left by their last passes
+  double amplification = 1.0;  // of all three in the tangent: how much softer it is than unloaded; grows towards buckling
 };
 
 class StaticsSolver {
  public:
-  static constexpr int kMaxIterations = 400;
+  static constexpr int kMaxIterations = 600;
 
   // accuracy: relative; decides stages, number of elements and when passes stop. stages: 0, or those of every element.
   StaticsSolver(const Scene& scene, double accuracy, int stages = 0);
   StaticsSolver(const StaticsSolver&) = delete;  // its parts refer to one another
 
-  // Solves from backbone.rest. Starts from the last solution unless reset() was called: quick sweeps first, which mend
-  // shape and base moment together; if they do not converge, damped Newton steps on converged shots from the unloaded
-  // shape, then load continuation. Of an unstable equilibrium it tries once more along the loads from zero, and keeps
-  // the stable one if that finds it. On success backbone holds the shape and the tangent can be read.
+  // Solves from backbone.rest. Starts from the last solution unless reset() was called, else from the unloaded shape:
+  // quick sweeps, which mend shape and base moment together; if they do not converge, damped Newton steps on converged
+  // shots. When that finds no stable equilibrium, or starts cold under loads that allow several, it is found by a branch
+  // search along the loads from zero. On success backbone holds the shape and the tangent can be read.
+  //
+  // A warm start stays on the branch of the last solution while that is stable, as the robot does, even where a cold
+  // start would find another one: which of several stable shapes a robot is in depends on its past. To tell would take
+  // a search along the loads, many times the cost of the solve; reset() gives the cold answer.
   StaticsReport solve(const DeadLoads& loads, Backbone& backbone);
 
   // Shape without loads, in closed form.
@@ -40,30 +50,36 @@ class StaticsSolver {
   // Total moment at the base, N m, base axes.
   const Vector3& baseMoment() const { return base_moment_; }
 
-  void reset() { warm_ = has_columns_ = false; }
+  void reset();
 
  private:
-  bool quick(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
-  bool findEquilibrium(const DeadLoads& loads, bool along_loads, Backbone& backbone, StaticsReport& report);
+  class Finder;  // for the branch search
+  bool quick(const DeadLoads& loads, bool has_inverse, Backbone& backbone, StaticsReport& report);
+  bool findEquilibrium(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
+  bool findAlongLoads(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
+  void polish(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
   bool findTangent(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
-  bool isStable() const;
+  bool mayBuckle(const DeadLoads& loads, const Backbone& backbone) const;
+  bool isStable(const DeadLoads& loads, const Backbone& backbone, const StaticsReport& report) const;
   bool updateInverse(const DeadLoads& loads, double goal, Backbone& backbone);
   bool march(const DeadLoads& loads, const Vector3& base_moment, Backbone& backbone, Vector3& residual);
   bool newton(const DeadLoads& loads, Backbone& backbone, int max_iterations, StaticsReport& report);
-  bool continuation(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
-  void resetGuesses(const DeadLoads& loads, Backbone& backbone);
+  void forgetGuesses(const DeadLoads& loads, Backbone& backbone);
   void placeFresh(const DeadLoads& loads, Backbone& backbone);
   double bendingOf(const Vector3& moment) const { return softness_ * moment.norm(); }
 
   Chain chain_;
-  double accuracy_;
+  double length_, accuracy_;
   Discretisation discretisation_;
   Vector3 base_moment_ = Vector3::Zero();
   Matrix3 residual_inverse_ = Matrix3::Zero();  // of d residual / d base moment
   Matrix6 tangent_ = Matrix6::Zero();
   double softness_ = 0.0;      // L c_bt of the softest segment, rad / (N m)
+  double stiffest_ = 0.0;      // rotation of the tip by a unit moment about its stiffest axis, unloaded, rad / (N m)
+  double amplification_ = 1.0; // see StaticsReport, of the last solve
   bool warm_ = false;          // shape, base moment and inverse are those of a solution
   bool has_columns_ = false;   // the elements hold columns of a shape nearby
+  bool nodes_hold_guess_ = false;
 };
 
 }  // namespace live_stiffness

@@ -1,0 +1,43 @@
+#pragma once
+// A rod whose rest strain and compliance are given directly, for classical rod problems: statics takes both from the
+// backbone, the section says nothing.
+
+#include <limits>
+
+#include "live_stiffness/rod/statics.h"
+
+namespace live_stiffness {
+
+// Length L (m), mass 1 kg, along z.
+struct BareRod {
+  Scene scene;
+  RestState rest;
+
+  BareRod(double length, double EI, double GJ, double GA, double EA) {
+    Segment segment;
+    segment.length = length;
+    segment.section.outer_radius = 0.01 * length;
+    segment.section.density = 1.0 / (segment.section.area(1.0) * length);
+    scene.chain.push_back(segment);
+    rest.c.shear_elongation.diagonal() << 1.0 / GA, 1.0 / GA, 1.0 / EA;
+    rest.c.bending_torsion.diagonal() << 1.0 / EI, 1.0 / EI, 1.0 / GJ;
+  }
+
+  // EI = GJ = L = 1 without shear and elongation. Infinite stiffness is exact, because only compliances enter.
+  static BareRod elastica() {
+    constexpr double kRigid = std::numeric_limits<double>::infinity();
+    return {1.0, 1.0, 1.0, kRigid, kRigid};
+  }
+
+  Backbone backbone() const {
+    Backbone result(scene);
+    result.rest[0] = rest;
+    return result;
+  }
+};
+
+// Position of the tip seen from the base when the wrench at the tip is given in the tip's own axes: from there to the
+// base it is an initial value problem. tip_force: N; follower_load: N/m; body axes.
+Vector3 tipByMarchingFromTip(const BareRod& rod, const Vector3& tip_force, const Vector3& follower_load);
+
+}  // namespace live_stiffness
