@@ -70,7 +70,7 @@ Sweep sweep(const Chain& chain, const DeadLoads& loads, const Vector3& base_mome
 bool shoot(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, bool nodes_hold_guess,
            Backbone& backbone, Vector3& residual) {
   constexpr int kMaxSweeps = 100;
-  constexpr double kConverged = 4e-15;  // rad
+  constexpr double kConverged = 2e-16, kWobble = 1e-13;  // rad
   double last_change = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMaxSweeps; ++i) {
     const bool anew = i == 0 && !nodes_hold_guess;
@@ -78,7 +78,7 @@ bool shoot(const Chain& chain, const DeadLoads& loads, const Vector3& base_momen
     residual = s.residual;
     if (!s.sound) return false;
     // Rounding can leave a last-digit wobble just above the bound: stop there once it no longer shrinks.
-    if (s.change <= kConverged || (s.change <= 20.0 * kConverged && s.change >= last_change)) return true;
+    if (s.change <= kConverged || (s.change <= kWobble && s.change >= last_change)) return true;
     last_change = s.change;
   }
   return false;

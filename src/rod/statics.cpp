@@ -14,8 +14,9 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kResidualGoal = 1e-12;     // rad, see StaticsReport::residual
-constexpr double kResidualAccepted = 1e-9;  // rad, when rounding stops it short of the goal
-constexpr double kRoughColumns = 1e-2;      // relative change, enough for Newton steps
+constexpr double kResidualAccepted = 1e-8;  // rad, when rounding stops it short of the goal; it is part of the estimate
+constexpr double kRoughColumns = 1e-2;      // relative error, enough for sweeps to converge
+constexpr double kFineColumns = 1e-12;      // for Newton steps where the residual is nearly singular, or huge
 constexpr double kMostAmplification = 1e6;
 
 // All pivots of L D L^T are positive.
@@ -77,12 +78,11 @@ bool StaticsSolver::quick(const DeadLoads& loads, bool has_inverse, Backbone& ba
     report.residual = bendingOf(s.residual);
     const double error = std::max(s.change, report.residual);
     if (!s.sound || (growing += error > last) > 3) return false;
-    // A sweep leaves in the shape about its change times the rate at which changes shrink; the residual it leaves.
-    const double rate = i == 0 ? 0.5 * kSlowestRate : std::min(kSlowestRate, error / last);
-    expected = error * rate;
-    report.iteration = s.change * rate;
+    // The shape that a sweep finishes is the one it started from, so it is off by the change.
+    expected = error * (i == 0 ? 0.5 * kSlowestRate : std::min(kSlowestRate, error / last));
+    report.iteration = s.change;
     const bool at_rounding = error <= kRounding && error >= 0.5 * last;
-    if (finish && has_inverse && (std::max(report.iteration, report.residual) <= goal || at_rounding)) return true;
+    if (finish && has_inverse && (error <= goal || at_rounding)) return true;
     if (error <= kRounding && error > 0.3 * last) expected = 0.0;
     last = error;
     if (make_inverse && !(has_inverse = updateInverse(loads, kRoughColumns, backbone))) return false;
@@ -100,7 +100,7 @@ bool StaticsSolver::newton(const DeadLoads& loads, Backbone& backbone, int max_i
   double accepted = kInfinity, damping = 1.0;
   bool have_inverse = warm_, inverse_is_fresh = false;
   const auto refresh = [&] {
-    have_inverse = inverse_is_fresh = updateInverse(loads, kRoughColumns, backbone);
+    have_inverse = inverse_is_fresh = updateInverse(loads, kFineColumns, backbone);
   };
   for (int i = 0; i < max_iterations && report.iterations < kMaxIterations; ++i) {
     ++report.iterations;
@@ -276,7 +276,7 @@ bool StaticsSolver::findTangent(const DeadLoads& loads, Backbone& backbone, Stat
   double cancellation = 1.0;  // on a long taut chain the columns are far larger than the compliance made of them
   for (int attempt = 0; attempt < 2; ++attempt) {
     ElementColumns tip;
-    const double column_goal = std::max(goal / (amplification_ * cancellation), 1e-14);
+    const double column_goal = std::max(goal / (amplification_ * cancellation), 1e-16);
     const double change = tipColumns(chain_, loads, !has_columns_, column_goal, backbone, tip);
     has_columns_ = std::isfinite(change);
     if (!has_columns_) return false;

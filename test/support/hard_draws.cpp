@@ -238,7 +238,8 @@ HardDraw hardDraw(const std::string& draw_class, unsigned long number) {
 bool DrawOutcome::isAccurate(double accuracy) const {
   // Ten times the estimate, as everywhere; and the balance, which is measured by quadrature over the same shape.
   const double tolerance = 10.0 * std::max(accuracy, estimate);
-  return (reference_failed || other_branch || error <= tolerance) && imbalance <= std::max(tolerance, 1e-8);
+  return (reference_failed || other_branch || error <= tolerance + reference_estimate) &&
+         imbalance <= std::max(tolerance, 1e-8);
 }
 
 bool DrawOutcome::isHonest(double accuracy) const {
@@ -273,6 +274,7 @@ DrawOutcome runHardDraw(const HardDraw& draw) {
     outcome.reference_failed = !reference.status.ok();
     if (outcome.reference_failed) return outcome;
     outcome.error = errorBetween(solution, reference, length);
+    outcome.reference_estimate = 10.0 * reference.numerical_error;
     outcome.other_branch = !draw.before.empty() && poseError(solution.X_BT, reference.X_BT, length) > 0.01;
   } catch (const std::exception&) {
     outcome.threw = true;

@@ -41,6 +41,7 @@ struct DrawOutcome {
   bool finite = true;
   bool threw = false;
   bool reference_failed = false;  // the cold solve to 1e-12 gave no ok result: then the moments alone count
+  double reference_estimate = 0.0;  // how far off the reference itself may be: near buckling 1e-12 is out of reach
   bool other_branch = false;      // of a warm start: in balance and stable, but not where a cold start ends
 
   bool isAccurate(double accuracy) const;

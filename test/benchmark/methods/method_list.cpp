@@ -27,7 +27,7 @@ MethodEntry library(const std::string& family, const std::string& variant, doubl
 }  // namespace
 
 double accuracyOfStages(int stages) {
-  constexpr double kAccuracy[] = {1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10};  // of 2 to 7 stages
+  constexpr double kAccuracy[] = {1e-3, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10};  // of 2 to 7 stages
   return kAccuracy[stages - kMinStages];
 }
 
