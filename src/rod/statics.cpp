@@ -65,7 +65,7 @@ bool StaticsSolver::quick(const DeadLoads& loads, bool has_inverse, Backbone& ba
   constexpr int kMaxSweeps = 40, kSweepsBeforeInverse = 2;
   constexpr double kSlowestRate = 0.2, kRounding = 1e-13;
   const double goal = std::max(0.2 * accuracy_ / amplification_, 1e-15);
-  if (!has_inverse) residual_inverse_.setIdentity();  // right but for the load's own effect
+  if (!has_inverse && !warm_) residual_inverse_.setIdentity();  // right but for the load's own effect
   double last = kInfinity, expected = kInfinity;
   int growing = 0;
   for (int i = 0; i < kMaxSweeps && report.iterations < kMaxIterations; ++i) {
@@ -185,7 +185,7 @@ void StaticsSolver::placeUnloaded(Backbone& backbone) {
 
 // By the quickest way that works, whichever branch that leads to.
 bool StaticsSolver::findEquilibrium(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
-  bool has_inverse = warm_;
+  bool has_inverse = warm_ && has_columns_;
   if (warm_) prepare(chain_, loads, backbone);
   else placeFresh(loads, backbone);
   while (true) {
@@ -347,7 +347,8 @@ StaticsReport StaticsSolver::solve(const DeadLoads& loads, Backbone& backbone) {
       softness_ = std::max(softness_, rest.c.bending_torsion.diagonal().maxCoeff() * length);
       stiffest_ += rest.c.bending_torsion.diagonal().minCoeff() * length;
     }
-  if (discretisation_.choose(loads, backbone)) warm_ = has_columns_ = false;
+  // Other elements hold no guess, but the base moment stays what it was.
+  if (discretisation_.choose(loads, backbone)) has_columns_ = nodes_hold_guess_ = false;
   // Newton's method takes any equilibrium, if it finds one. So where there may be several it is trusted near a stable
   // one only.
   if (warm_ || !mayBuckle(loads, backbone)) {

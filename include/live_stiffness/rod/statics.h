@@ -77,7 +77,7 @@ class StaticsSolver {
   double softness_ = 0.0;      // L c_bt of the softest segment, rad / (N m)
   double stiffest_ = 0.0;      // rotation of the tip by a unit moment about its stiffest axis, unloaded, rad / (N m)
   double amplification_ = 1.0; // see StaticsReport, of the last solve
-  bool warm_ = false;          // shape, base moment and inverse are those of a solution
+  bool warm_ = false;          // base moment and inverse are those of a solution
   bool has_columns_ = false;   // the elements hold columns of a shape nearby
   bool nodes_hold_guess_ = false;
 };
