@@ -55,8 +55,8 @@ StiffnessEstimator::Outcome StiffnessEstimator::solve() {
   candidate_.stations.clear();
   candidate_.stretch.clear();
   for (int segment = 0; segment < model_.scene().segmentCount(); ++segment) {
-    for (double fraction : options_.fractions)
-      candidate_.stations.push_back(model_.station(workspace_, segment, fraction));
+    model_.stations(workspace_, segment, options_.fractions, of_segment_);
+    candidate_.stations.insert(candidate_.stations.end(), of_segment_.begin(), of_segment_.end());
     candidate_.stretch.push_back(workspace_.backbone().rest[segment].stretch);
   }
   std::swap(estimate_, candidate_);

@@ -57,6 +57,7 @@ class StiffnessEstimator {
   StiffnessWorkspace workspace_;
   Pressures newest_pressures_, solved_pressures_;
   Wrench newest_wrench_ = Wrench::Zero(), solved_wrench_ = Wrench::Zero();
+  std::vector<Station> of_segment_;  // scratch
   SolveStatus status_;
   Estimate estimate_, candidate_;
   bool has_pressures_ = false, has_solved_ = false, has_estimate_ = false;
