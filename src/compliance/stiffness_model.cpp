@@ -19,7 +19,10 @@ const char* codeName(SolveCode code) {
   return "unknown";
 }
 
-StiffnessModel::StiffnessModel(Scene scene, ModelOptions options) : scene_(std::move(scene)), options_(options), has_weight_(scene_.hasWeight()) {
+StiffnessModel::StiffnessModel(Scene scene, ModelOptions options)
+    : scene_(std::move(scene)),
+      options_(options),
+      chamber_count_(scene_.chamberCount()), has_weight_(scene_.hasWeight()) {
   FaultList faults("stiffness model");
   if (scene_.segmentCount() == 0) faults.add("chain: must hold at least one segment");
   faults.check("pressure_step_pa", options_.pressure_step, {100.0, 1e7});
@@ -31,12 +34,12 @@ StiffnessModel::StiffnessModel(Scene scene, ModelOptions options) : scene_(std::
 }
 
 SolveStatus StiffnessModel::checkInput(PressuresRef pressures, const Wrench& tip_wrench) const {
-  if (pressures.size() != scene_.chamberCount())
-    return {SolveCode::kInvalidInput, -1, static_cast<double>(pressures.size())};
+  if (pressures.size() != chamber_count_) return {SolveCode::kInvalidInput, -1, static_cast<double>(pressures.size())};
+  constexpr double kLargest = std::numeric_limits<double>::max();
   for (int k = 0; k < pressures.size(); ++k)
-    if (!(pressures[k] >= -kAtmospherePa) || !std::isfinite(pressures[k]))
+    if (!(pressures[k] >= -kAtmospherePa && pressures[k] <= kLargest))
       return {SolveCode::kInvalidInput, k, pressures[k]};
-  if (!tip_wrench.allFinite()) return {SolveCode::kInvalidInput, scene_.chamberCount(), std::nan("")};
+  if (!tip_wrench.allFinite()) return {SolveCode::kInvalidInput, chamber_count_, std::nan("")};
   return {};
 }
 
@@ -85,7 +88,7 @@ StiffnessSolution StiffnessModel::solve(PressuresRef pressures, const Wrench& ti
     workspace.statics_.placeUnloaded(backbone);
   }
   solution.X_BT = backbone.X_BT;
-  solution.material_compliance = accumulateMaterial(backbone, options_.accuracy, workspace.loaded_);
+  solution.numerical_error += accumulateMaterial(backbone, options_.accuracy, workspace.loaded_, solution.material_compliance);
   // Without external load the two are the same matrix.
   solution.compliance = workspace.loaded_ ? workspace.statics_.tangentCompliance() : solution.material_compliance;
   solution.numerical_error += 1e-14;  // rounding

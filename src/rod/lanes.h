@@ -15,12 +15,60 @@ typedef double Lanes __attribute__((vector_size(8 * LIVE_STIFFNESS_LANES), may_a
 
 LIVE_STIFFNESS_INLINE Lanes load(const double* row, int v) { return reinterpret_cast<const Lanes*>(row)[v]; }
 LIVE_STIFFNESS_INLINE void store(double* row, int v, Lanes x) { reinterpret_cast<Lanes*>(row)[v] = x; }
+LIVE_STIFFNESS_INLINE void storeUnaligned(double* to, Lanes x) {
+  typedef double Unaligned __attribute__((vector_size(8 * LIVE_STIFFNESS_LANES), may_alias, aligned(8)));
+  *reinterpret_cast<Unaligned*>(to) = x;
+}
 LIVE_STIFFNESS_INLINE Lanes splat(double x) { return x - Lanes{}; }  // minus: 0 + x would not be x for -0
 
 LIVE_STIFFNESS_INLINE double sum(Lanes x) {
   double result = x[0];
   for (int i = 1; i < kLanes; ++i) result += x[i];
   return result;
+}
+
+#if LIVE_STIFFNESS_LANES == 4
+#define LIVE_STIFFNESS_PICK(a, b, i, j, k, l) __builtin_shuffle(a, b, LanesMask{i, j, k, l})
+#else
+#define LIVE_STIFFNESS_PICK(a, b, i, j) __builtin_shuffle(a, b, LanesMask{i, j})
+#endif
+typedef long long LanesMask __attribute__((vector_size(8 * LIVE_STIFFNESS_LANES)));
+
+// Sums over the lanes of each row, and rows to one array a lane (out[lane][0...] = rows[...][lane]), a square at a time.
+LIVE_STIFFNESS_INLINE Lanes sumsOfSquare(const Lanes* rows) {
+#if LIVE_STIFFNESS_LANES == 4
+  const Lanes a = LIVE_STIFFNESS_PICK(rows[0], rows[1], 0, 4, 2, 6) + LIVE_STIFFNESS_PICK(rows[0], rows[1], 1, 5, 3, 7);
+  const Lanes b = LIVE_STIFFNESS_PICK(rows[2], rows[3], 0, 4, 2, 6) + LIVE_STIFFNESS_PICK(rows[2], rows[3], 1, 5, 3, 7);
+  return LIVE_STIFFNESS_PICK(a, b, 0, 1, 4, 5) + LIVE_STIFFNESS_PICK(a, b, 2, 3, 6, 7);
+#else
+  return LIVE_STIFFNESS_PICK(rows[0], rows[1], 0, 2) + LIVE_STIFFNESS_PICK(rows[0], rows[1], 1, 3);
+#endif
+}
+LIVE_STIFFNESS_INLINE void storeSquareAcross(const Lanes* rows, double* const* out, int at) {
+#if LIVE_STIFFNESS_LANES == 4
+  const Lanes a = LIVE_STIFFNESS_PICK(rows[0], rows[1], 0, 4, 2, 6), b = LIVE_STIFFNESS_PICK(rows[0], rows[1], 1, 5, 3, 7),
+              c = LIVE_STIFFNESS_PICK(rows[2], rows[3], 0, 4, 2, 6), d = LIVE_STIFFNESS_PICK(rows[2], rows[3], 1, 5, 3, 7);
+  storeUnaligned(out[0] + at, LIVE_STIFFNESS_PICK(a, c, 0, 1, 4, 5));
+  storeUnaligned(out[1] + at, LIVE_STIFFNESS_PICK(b, d, 0, 1, 4, 5));
+  storeUnaligned(out[2] + at, LIVE_STIFFNESS_PICK(a, c, 2, 3, 6, 7));
+  storeUnaligned(out[3] + at, LIVE_STIFFNESS_PICK(b, d, 2, 3, 6, 7));
+#else
+  storeUnaligned(out[0] + at, LIVE_STIFFNESS_PICK(rows[0], rows[1], 0, 2));
+  storeUnaligned(out[1] + at, LIVE_STIFFNESS_PICK(rows[0], rows[1], 1, 3));
+#endif
+}
+template <int n>
+LIVE_STIFFNESS_INLINE void sums(const Lanes (&rows)[n], double* out) {
+  constexpr int kSquares = n / kLanes * kLanes;
+#pragma GCC unroll 16
+  for (int i = 0; i < kSquares; i += kLanes) storeUnaligned(out + i, sumsOfSquare(rows + i));
+  for (int i = kSquares; i < n; ++i) out[i] = sum(rows[i]);
+}
+template <int n>
+LIVE_STIFFNESS_INLINE void storeAcross(const Lanes (&rows)[n], double* const* out) {
+  static_assert(n % kLanes == 0);
+#pragma GCC unroll 18
+  for (int i = 0; i < n; i += kLanes) storeSquareAcross(rows + i, out, i);
 }
 
 struct Lanes3 {

@@ -64,10 +64,16 @@ RestState LoadStepper::fixedSteps(double force, const Eigen::Vector2d& moment, i
   Eigen::Vector2d curvature = Eigen::Vector2d::Zero();
   const double step = 1.0 / (steps * section_.youngsModulus());
   for (int i = 0; i < steps; ++i) {
-    curvature += section_.secondMoments(stretch).inverse() * moment * (step / std::sqrt(stretch));
-    stretch *= 1.0 + force * step / section_.area(stretch);
-    if (!section_.isValidAt(stretch)) return outOfRange(stretch);
+    const double A = section_.area(stretch);
+    const Eigen::Matrix2d I = section_.secondMoments(stretch);
+    const double determinant = I.determinant();
+    if (!(stretch > 0.0 && A > 0.0 && I.trace() > 0.0 && determinant > 0.0)) return outOfRange(stretch);
+    const double by_moment = step / (determinant * std::sqrt(stretch));  // 1 / sqrt(lam): the pitch radius shrinks
+    curvature.x() += by_moment * (I(1, 1) * moment.x() - I(0, 1) * moment.y());
+    curvature.y() += by_moment * (I(0, 0) * moment.y() - I(1, 0) * moment.x());
+    stretch += stretch * force * step / A;
   }
+  if (!section_.isValidAt(stretch)) return outOfRange(stretch);
   RestState state;
   state.stretch = stretch;
   state.curvature.head<2>() = curvature;

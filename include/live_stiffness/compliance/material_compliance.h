@@ -14,9 +14,9 @@ struct Station {
   Matrix6 compliance = Matrix6::Zero();
 };
 
-// Material compliance of the whole chain about T, base axes. Prepares the elements for stations of this accuracy.
-// loaded: the backbone comes from statics.
-Matrix6 accumulateMaterial(Backbone& backbone, double accuracy, bool loaded);
+// tip_compliance: material compliance of the whole chain about T, base axes. Prepares the elements for stations of this accuracy.
+// loaded: the backbone comes from statics. Returns an estimate of the relative error that this adds to that of the shape.
+double accumulateMaterial(Backbone& backbone, double accuracy, bool loaded, Matrix6& tip_compliance);
 
 // Stations at fractions (0 to 1, in any order; values beyond are moved to the ends) of a segment's length. Needs
 // accumulateMaterial(). Read from the collocation polynomials where these are accurate enough (relative), else

@@ -97,6 +97,7 @@ class StiffnessModel {
 
   Scene scene_;
   ModelOptions options_;
+  int chamber_count_;
   bool has_weight_;
   std::vector<LoadStepper> steppers_;  // one per segment
 };

@@ -21,11 +21,11 @@ struct ElementPasses {
   void (*follow)(ElementState&, const double (&base_moment_change)[3]);
   // Columns at the end from those at the nodes.
   void (*column_end)(ElementState&, const ElementColumns& start, ElementColumns& end);
-  // What stations() needs, and the integral of material compliance; after place_unloaded(), or after finish() under
-  // dead loads. improve: makes interior_error about twenty times smaller.
-  void (*material)(ElementState&, bool unloaded, bool improve);
+  // What stations() needs for this relative accuracy (see station_error for what comes of it), and the integral of
+  // material compliance; after place_unloaded(), or after finish() under dead loads.
+  void (*material)(ElementState&, bool unloaded, double accuracy);
   // Sections between the nodes, after material().
-  void (*stations)(const ElementState&, StationBatch&);
+  void (*stations)(const ElementState&, const StationBatch&);
 };
 
 constexpr double kMaxUnloadedBending = 1.6;  // rad an element

@@ -36,46 +36,55 @@ struct ElementState {
   double change;      // norm of the change of all g in it
   double size;        // norm of all g, before it
   double truncation;      // size of the highest Legendre coefficient of length * g', or what the one below lets expect
-  double interior_error;  // estimate of the relative error between the nodes
+  double interior_error;  // estimate of the relative error of the shape between the nodes
 
   // Shape at the nodes, filled by finish(); offsets by place_unloaded(), too.
   StageRow R[9], tangent[3], offset[3];  // orientation, p', position from the start (m)
   StageRow n[3], m[3];
   double offset_end[3];
 
-  // Linearised rod at the nodes, filled by linearise(): length times B, D, M and P of columns' rates.
-  StageRow bend[6], phi_of_phi[9], m_of_phi[9], p_of_phi[9];
+  // Linearised rod at the nodes, filled by linearise(): length times B, M and P of columns' rates.
+  StageRow bend[6], m_of_phi[9], p_of_phi[9];
   double stretch[6];  // integral of S = R c_se R^T, symmetric
 
   // Columns at the nodes and the end, and rotation at the start; kept as guess for the next solve.
   StageRow phi[6][3], dm[6][3];
+  StageRow phi_rate[6][3];  // what phi is the integral of
   double phi_start[6][3];
   double column_change;      // of the last pass, relative
   double column_truncation;  // square of the highest Legendre coefficient of their rate, as it turns the end, relative
 
   // Filled by material(), on a Gauss grid of its own: densities of compliance about the element's start, tangents;
   // Legendre coefficients of g_rate; integral of the densities.
+  int dense_nodes;
   NodeRow density[kPackedSize], dense_tangent[3];
+  int series_terms;
   double g_rate_series[kMaxNodes][3];
   bool unloaded;
   double compliance[kPackedSize];
+  double compliance_error;  // estimate of its relative error that the grid adds
+  double station_error;     // estimate of the relative error of stations()
 };
 
 // Derivatives of a section's state with respect to [base moment, tip force]: rotation phi (rad, R changes by
 // hat(phi) R), position and moment. The first index is the column.
 struct ElementColumns {
   double phi[6][3], p[6][3], m[6][3];
+  // What the columns' own error does, so far along the chain: [i][j] is the work of the moment of column i on the turning
+  // that column j still misses. It corrects the compliance to second order in that error, see StaticsSolver.
+  double defect[6][6];
 };
 
 // Sections inside one element, a batch at a time.
 constexpr int kStationBatch = 4;
-typedef double StationRow[kStationBatch] __attribute__((aligned(32)));
 struct StationBatch {
-  StationRow fraction;                   // set by the caller: of the element's length, 0 to 1
-  double start_compliance[kPackedSize];  // set by the caller: of everything before the element, about its start
-  StationRow R[9];                       // orientation in B
-  StationRow offset[3];                  // from the element's start, m
-  StationRow compliance[kPackedSize];    // of everything before the section, about it
+  int size;                                                    // sections wanted
+  double fraction[kStationBatch] __attribute__((aligned(32)));  // of the element's length, 0 to 1; all must be set
+  double p_start[3];                     // of the element's first section in B, m
+  double start_compliance[kPackedSize];  // of everything before the element, about its start
+  // Where the results go, column-major; all must be set, unused ones to a place that may be written to.
+  double* pose[kStationBatch];        // 12: orientation in B and position, m
+  double* compliance[kStationBatch];  // 36: of everything before the section, about it
 };
 
 }  // namespace live_stiffness

@@ -15,8 +15,9 @@ struct RodElement {
   double start = 0.0;  // arc length of its start from the segment's base, stretched, m
   Vector3 p_start = Vector3::Zero();  // of its first section in B, m
   ElementState state;
-  // Material compliance of everything before the element, about its start, packed. Set by accumulateMaterial().
-  double start_compliance[kPackedSize] = {};
+  // Material compliance of everything before the element's start and end, about these, packed. Set by
+  // accumulateMaterial().
+  double start_compliance[kPackedSize] = {}, end_compliance[kPackedSize] = {};
 
   // Start values: pose of the first section in B; external force and moment there, N and N m, base axes.
   void setStart(const Pose& X, const Vector3& n, const Vector3& m);

@@ -1,0 +1,142 @@
+#pragma once
+// Linearised rod of one element: how its sections turn and move with the base moment and the tip force.
+
+#include "rod/element_collocation_code.h"
+#include "rod/element_section_code.h"
+
+namespace live_stiffness {
+namespace {
+
+template <int kStages>
+struct Columns : Collocation<kStages> {
+  using Base = Collocation<kStages>;
+  using typename Base::Rows;
+  using Base::integral, Base::table, Base::kVectors;
+
+  static void linearise(ElementState& e) {
+    const Lanes h = splat(e.length);
+    Lanes stretch[6] = {};
+    for (int v = 0; v < kVectors; ++v) {
+      const LanesMatrix R = loadMatrix(e.R, v), B = bendOf(e, R), S = stretchOf(e, R.z);
+      const Lanes b = load(table().b, v) * h;
+      stretch[0] += b * S.x.x, stretch[1] += b * S.y.x, stretch[2] += b * S.z.x;
+      stretch[3] += b * S.y.y, stretch[4] += b * S.z.y, stretch[5] += b * S.z.z;
+      const Lanes3 n = load(e.n, v), tangent = load(e.tangent, v);
+      storeSymmetric(e.bend, v, LanesMatrix{h * B.x, h * B.y, h * B.z});
+      // P = S hat(n) - hat(tangent) = hat(shear n - tangent) + (elongation - shear) z (z x n)^T
+      const Lanes3 z = h * R.z, a = h * (splat(e.shear) * n - tangent), k = splat(e.elongation - e.shear) * cross(R.z, n);
+      const LanesMatrix P{{k.x * z.x, a.z + k.x * z.y, k.x * z.z - a.y},
+                          {k.y * z.x - a.z, k.y * z.y, a.x + k.y * z.z},
+                          {a.y + k.z * z.x, k.z * z.y - a.x, k.z * z.z}};
+      storeMatrix(e.p_of_phi, v, P);
+      storeMatrix(e.m_of_phi, v, LanesMatrix{cross(n, P.x), cross(n, P.y), cross(n, P.z)});
+    }
+    for (int i = 0; i < 6; ++i) e.stretch[i] = sum(stretch[i]);
+  }
+
+  // m' = M phi - P^T dn, dn the unit forces of columns 3 to 5.
+  static LIVE_STIFFNESS_INLINE void updateMoments(const GaussLegendre& t, ElementState& e, const ElementColumns& start,
+                                                  int k) {
+    StageRow rate[3];
+#pragma GCC unroll 4
+    for (int v = 0; v < kVectors; ++v) {
+      Lanes3 m_rate = loadMatrix(e.m_of_phi, v) * load(e.phi[k], v);
+      if (k >= 3) {
+        const StageRow* row = e.p_of_phi + 3 * (k - 3);
+        m_rate = m_rate - Lanes3{load(row[0], v), load(row[1], v), load(row[2], v)};
+      }
+      store(rate, v, m_rate);
+    }
+    const Rows moment = integral(t, rate);
+#pragma GCC unroll 4
+    for (int v = 0; v < kVectors; ++v) store(e.dm[k], v, splat(start.m[k]) + moment.at[v]);
+  }
+
+  // What the moment of column k changes by for an observer who turns with the section; B times it is phi'.
+  static LIVE_STIFFNESS_INLINE Lanes3 turningMoment(const ElementState& e, int k, int v) {
+    return load(e.dm[k], v) + cross(load(e.m, v), load(e.phi[k], v));
+  }
+
+  // Moments, then phi' = B (dm - phi x m). In this order the change of phi shows whatever is not yet right.
+  static void columnPass(ElementState& e, const ElementColumns& start) {
+    const GaussLegendre& t = table();
+    Lanes change[2] = {}, size[2] = {};  // base moment and tip force have their own units
+    for (int k = 0; k < 6; ++k) {
+      updateMoments(t, e, start, k);
+#pragma GCC unroll 4
+      for (int v = 0; v < kVectors; ++v) store(e.phi_rate[k], v, loadSymmetric(e.bend, v) * turningMoment(e, k, v));
+      const Rows turn = integral(t, e.phi_rate[k]);
+#pragma GCC unroll 4
+      for (int v = 0; v < kVectors; ++v) {
+        const Lanes3 next = splat(start.phi[k]) + turn.at[v], step = next - load(e.phi[k], v);
+        change[k / 3] += dot(step, step);
+        size[k / 3] += dot(next, next);
+        store(e.phi[k], v, next);
+      }
+    }
+    const double a = sum(change[0]) / (sum(size[0]) + 1e-300), b = sum(change[1]) / (sum(size[1]) + 1e-300);
+    e.column_change = __builtin_sqrt(a + b);
+  }
+
+  static void columnEnd(ElementState& e, const ElementColumns& start, ElementColumns& end) {
+    static constexpr int kSymmetric[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+    const GaussLegendre& t = table();
+    Lanes along[18];
+    StageRow moment[6][3], missing[6][3];  // turning moment; phi' that it demands less that which phi was made of
+    for (int k = 0; k < 6; ++k) {
+      updateMoments(t, e, start, k);
+      Lanes3 p{};
+#pragma GCC unroll 4
+      for (int v = 0; v < kVectors; ++v) {
+        p = p + load(t.b, v) * (loadMatrix(e.p_of_phi, v) * load(e.phi[k], v));
+        const Lanes3 turning = turningMoment(e, k, v);
+        store(moment[k], v, turning);
+        store(missing[k], v, load(t.b, v) * (loadSymmetric(e.bend, v) * turning - load(e.phi_rate[k], v)));
+      }
+      along[3 * k] = p.x, along[3 * k + 1] = p.y, along[3 * k + 2] = p.z;
+    }
+    double moved[18], defect[36];
+    sums(along, moved);
+    Lanes work[36];
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < 6; ++j) {
+        Lanes total = dot(load(moment[i], 0), load(missing[j], 0));
+        for (int v = 1; v < kVectors; ++v) total += dot(load(moment[i], v), load(missing[j], v));
+        work[6 * i + j] = total;
+      }
+    sums(work, defect);
+    for (int k = 0; k < 6; ++k) {
+      for (int i = 0; i < 3; ++i) {
+        end.p[k][i] = start.p[k][i] + moved[3 * k + i] + (k >= 3 ? e.stretch[kSymmetric[i][k - 3]] : 0.0);
+        end.phi[k][i] = e.phi[k][i][kStages];
+        end.m[k][i] = e.dm[k][i][kStages];
+      }
+      for (int j = 0; j < 6; ++j) end.defect[k][j] = start.defect[k][j] + defect[6 * k + j];
+    }
+    estimateTruncation(t, e, end);
+  }
+
+  // As that of the shape, which says nothing of a straight rod under load.
+  static LIVE_STIFFNESS_INLINE void estimateTruncation(const GaussLegendre& t, ElementState& e,
+                                                       const ElementColumns& end) {
+    Lanes top[9], below[9];
+    for (int k = 0; k < 9; ++k) {
+      const double* dm = e.dm[k / 3][k % 3];
+      top[k] = load(t.legendre[kStages - 1], 0) * load(dm, 0);
+      below[k] = load(t.legendre[kStages - 2], 0) * load(dm, 0);
+      for (int v = 1; v < kVectors; ++v) {
+        top[k] += load(t.legendre[kStages - 1], v) * load(dm, v);
+        below[k] += load(t.legendre[kStages - 2], v) * load(dm, v);
+      }
+    }
+    double a[9], b[9], size = 1e-300;
+    sums(top, a);
+    sums(below, b);
+    for (int k = 0; k < 9; ++k) size += end.phi[k / 3][k % 3] * end.phi[k / 3][k % 3];
+    const double turn = e.length * largerOf(e.bend_xx, e.bend_yy);  // by the unit moment
+    e.column_truncation = turn * turn * largerOf(squaredNorm(a), kDecay * kDecay * squaredNorm(b)) / size;
+  }
+};
+
+}  // namespace
+}  // namespace live_stiffness

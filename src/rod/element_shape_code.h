@@ -1,0 +1,154 @@
+#pragma once
+// Shape of one element:
+//   p' = R v,  R' = R hat(u),  n' = -w - R f,  m' = -p' x n                                    (8)
+// collocated at the Gauss nodes; one lane is one node, the last one the end.
+
+#include "rod/element_collocation_code.h"
+#include "rod/element_section_code.h"
+
+namespace live_stiffness {
+namespace {
+
+template <int kStages>
+struct Shape : Collocation<kStages> {
+  using Base = Collocation<kStages>;
+  using typename Base::Rows;
+  using Base::integral, Base::table, Base::kVectors;
+
+  template <bool kFinish>
+  static void pass(ElementState& e) {
+    const GaussLegendre& t = table();
+    const Lanes h = splat(e.length);
+    double n_start[3], m_start[3], line_load[3];  // in the axes of the start, as everything below
+    rotateBack(e.R_start, e.n_start, n_start);
+    rotateBack(e.R_start, e.m_start, m_start);
+    rotateBack(e.R_start, e.line_load, line_load);
+    const double reach[3] = {e.length * line_load[0], e.length * line_load[1], e.length * line_load[2]};
+
+    LanesMatrix R[kVectors];
+    Rows follower{};
+    for (int v = 0; v < kVectors; ++v) R[v] = cayley(load(e.g, v));
+    if (e.follows) {
+      StageRow f[3];
+      for (int v = 0; v < kVectors; ++v) store(f, v, R[v] * splat(e.follower_load));
+      follower = integral(t, f);
+    }
+    StageRow m_rate[3], n_rows[3], m_rows[3];
+    Lanes3 tangent[kVectors];
+    for (int v = 0; v < kVectors; ++v) {
+      Lanes3 n = splat(n_start) - load(t.c, v) * splat(reach);
+      if (e.follows) n = n - h * follower.at[v];
+      tangent[v] = tangentOf(e, R[v].z, n);
+      store(m_rate, v, cross(n, tangent[v]));
+      store(n_rows, v, n);
+    }
+    const Rows moment = integral(t, m_rate);
+    for (int v = 0; v < kVectors; ++v) {
+      const Lanes3 m = splat(m_start) + h * moment.at[v];
+      store(e.g_rate, v, cayleyRate(load(e.g, v), curvatureOf(e, R[v], m)));
+      store(m_rows, v, m);
+    }
+    const Rows next = integral(t, e.g_rate);
+    Lanes change{}, size{};
+    for (int v = 0; v < kVectors; ++v) {
+      const Lanes3 before = load(e.g, v), after = h * next.at[v], step = after - before;
+      change += dot(step, step);
+      size += dot(before, before);
+      store(e.g, v, after);
+    }
+    e.change = __builtin_sqrt(sum(change));
+    e.size = __builtin_sqrt(sum(size));
+    endState(e, n_rows, m_rows);
+    if (!kFinish) return;
+
+    const LanesMatrix R_start = splatMatrix(e.R_start);
+    for (int v = 0; v < kVectors; ++v) {
+      storeMatrix(e.R, v, R_start * R[v]);
+      store(e.tangent, v, R_start * tangent[v]);
+      store(e.n, v, R_start * load(n_rows, v));
+      store(e.m, v, R_start * load(m_rows, v));
+    }
+    const Rows offset = integral(t, e.tangent);
+    for (int v = 0; v < kVectors; ++v) store(e.offset, v, h * offset.at[v]);
+    for (int i = 0; i < 3; ++i) e.offset_end[i] = e.offset[i][kStages];
+    estimateTruncation(e, t);
+  }
+  static LIVE_STIFFNESS_INLINE void endState(ElementState& e, const StageRow (&n)[3], const StageRow (&m)[3]) {
+    rotate(e.R_start, {n[0][kStages], n[1][kStages], n[2][kStages]}, e.n_end);
+    rotate(e.R_start, {m[0][kStages], m[1][kStages], m[2][kStages]}, e.m_end);
+    endRotation(e);
+  }
+
+  static LIVE_STIFFNESS_INLINE void endRotation(ElementState& e) {
+    const double g[3] = {e.g[0][kStages], e.g[1][kStages], e.g[2][kStages]};
+    const double k = 2.0 / (4.0 + g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+    const double kg[3] = {k * g[0], k * g[1], k * g[2]};
+    const double xx = kg[0] * g[0], yy = kg[1] * g[1], zz = kg[2] * g[2];
+    const double xy = kg[0] * g[1], xz = kg[0] * g[2], yz = kg[1] * g[2];
+    const double x = 2.0 * kg[0], y = 2.0 * kg[1], z = 2.0 * kg[2];
+    double column[3];
+    const auto put = [&](int j) {
+      for (int i = 0; i < 3; ++i) e.R_end[3 * i + j] = column[i];
+    };
+    rotate(e.R_start, {1.0 - yy - zz, xy + z, xz - y}, column), put(0);
+    rotate(e.R_start, {xy - z, 1.0 - xx - zz, yz + x}, column), put(1);
+    rotate(e.R_start, {xz + y, yz - x, 1.0 - xx - yy}, column), put(2);
+  }
+
+  // The highest coefficient alone may pass through zero by accident; the one below it says how large it could be.
+  static LIVE_STIFFNESS_INLINE void estimateTruncation(ElementState& e, const GaussLegendre& t) {
+    double top = 0.0, below = 0.0;
+    for (int i = 0; i < 3; ++i) {
+      double a = 0.0, b = 0.0;
+      for (int j = 0; j < kStages; ++j) {
+        a += t.legendre[kStages - 1][j] * e.g_rate[i][j];
+        b += t.legendre[kStages - 2][j] * e.g_rate[i][j];
+      }
+      top += a * a;
+      below += b * b;
+    }
+    e.truncation = __builtin_fabs(e.length) * __builtin_sqrt(largerOf(top, kDecay * kDecay * below));
+    // Between the nodes the first coefficient left out shows, once integrated; it goes on shrinking as the last ones.
+    double shrink = below > 0.0 ? __builtin_sqrt(top / below) : 0.0;
+    shrink = shrink < kDecay ? kDecay : shrink > 1.0 ? 1.0 : shrink;
+    e.interior_error = e.truncation * shrink / kStages;
+  }
+  static void finish(ElementState& e) { pass<true>(e); }
+  static void placeUnloaded(ElementState& e) {
+    const GaussLegendre& t = table();
+    const Lanes3 u = splat(e.rest_curvature);
+    const LanesMatrix R_start = splatMatrix(e.R_start);
+    for (int v = 0; v < kVectors; ++v) {
+      const Lanes s = splat(e.length) * load(t.c, v);
+      const Lanes3 w = s * u, turn{w.y, -w.x, Lanes{}};  // turn: w x e3
+      const Lanes3 g = cayleyOfRotation(w);
+      store(e.g, v, g);
+      store(e.g_rate, v, cayleyRate(g, u));
+      const Lanes x = dot(w, w);
+      const Lanes3 bend = series(kCosine, x) * turn + series(kThird, x) * cross(w, turn);
+      store(e.offset, v, s * (R_start * Lanes3{bend.x, bend.y, 1.0 + bend.z}));
+    }
+    endRotation(e);
+    for (int i = 0; i < 3; ++i) {
+      e.offset_end[i] = e.offset[i][kStages];
+      e.n_end[i] = e.m_end[i] = 0.0;
+    }
+    e.change = e.truncation = e.interior_error = 0.0;
+  }
+  // A turn phi of a section in space, R -> exp(hat(phi)) R, turns g at the rate phi - g x phi / 2 + g (g . phi) / 4.
+  static void follow(ElementState& e, const double (&change)[3]) {
+    double turn_start[3] = {};
+    for (int k = 0; k < 3; ++k)
+      for (int i = 0; i < 3; ++i) turn_start[i] += change[k] * e.phi_start[k][i];
+    const LanesMatrix R_start = splatMatrix(e.R_start);
+    for (int v = 0; v < kVectors; ++v) {
+      Lanes3 turn = Lanes3{} - splat(turn_start);
+      for (int k = 0; k < 3; ++k) turn = turn + splat(change[k]) * load(e.phi[k], v);
+      const Lanes3 g = load(e.g, v), phi = transposedTimes(R_start, turn);
+      store(e.g, v, g + phi - splat(0.5) * (cross(g, phi) - (0.5 * dot(g, phi)) * g));
+    }
+  }
+};
+
+}  // namespace
+}  // namespace live_stiffness
