@@ -10,6 +10,7 @@ namespace {
 // One element of S stages that bends by x rad leaves an error of about (x / kReach[S])^(2 S).
 constexpr double kReach[kMaxStages + 1] = {0, 0, 3.5, 4.7, 5.0, 5.0, 5.7, 5.8};
 constexpr double kMaxBending = 1.5;  // rad an element, whatever the accuracy
+constexpr double kLeastDemand = 1e-3;
 
 // Stages to choose from, and what an element costs with them, relative (docs/speed_against_error.md).
 constexpr struct {
@@ -38,7 +39,7 @@ Discretisation::Discretisation(const Chain& chain, double accuracy, int stages)
     : chain_(chain), accuracy_(accuracy) {
   for (const Chain::Part& part : chain.parts)
     if (part.segment >= 0) demand_.push_back(0.0);
-  caution_.assign(demand_.size(), 1.0);
+  caution_ = seen_caution_ = std::vector<double>(demand_.size(), 1.0);
   // Of a nearly straight rod the estimate says little, and few stages err by more than it: not where that would show.
   const int least = accuracy >= 1e-6 ? 3 : accuracy >= 1e-10 ? 5 : 7;
   for (const auto& choice : kChoices)
@@ -69,20 +70,28 @@ bool Discretisation::choose(const DeadLoads& loads, Backbone& backbone) {
     const double softness = rest.c.bending_torsion.diagonal().maxCoeff();
     const double bending = length * (rest.curvature.norm() + softness * moment);
     const double load_number = length * std::sqrt(softness * force);
-    demand_[part.segment] = std::max(bending, kBendingOfLoadNumber * load_number) * caution_[part.segment];
+    demand_[part.segment] = std::max({bending, kBendingOfLoadNumber * load_number, kLeastDemand});
   }
-  const Choice* best = &choices_.back();
+  return chooseForDemand(backbone);
+}
+
+bool Discretisation::chooseForDemand(Backbone& backbone) {
+  // One element each of the fewest stages, the cheapest choice, is enough more often than not.
+  bool one_each = true;
+  for (size_t k = 0; k < demand_.size(); ++k) one_each = one_each && demandOf(k) <= choices_.front().bending;
+  const Choice* best = &choices_.front();
   double cheapest = std::numeric_limits<double>::infinity();
   for (const Choice& choice : choices_) {
+    if (one_each) break;
     double cost = 0.0;
-    for (double demand : demand_) cost += choice.cost * std::max(1.0, std::ceil(demand / choice.bending));
+    for (size_t k = 0; k < demand_.size(); ++k) cost += choice.cost * std::max(1.0, std::ceil(demandOf(k) / choice.bending));
     if (cost < cheapest) {
       cheapest = cost;
       best = &choice;
     }
   }
   for (size_t k = 0; k < demand_.size(); ++k)
-    backbone.element_count[k] = countOf(demand_[k], best->bending);
+    backbone.element_count[k] = one_each ? 1 : countOf(demandOf(k), best->bending);
   return backbone.resize(best->stages);
 }
 
@@ -94,26 +103,41 @@ double Discretisation::truncation(double cancellation, const Backbone& backbone)
 }
 
 bool Discretisation::refine(double amplification, Backbone& backbone) {
-  bool refined = false;
+  constexpr double kMargin = 1.05, kMostGrowth = 2.0, kEasierBy = 0.8;
+  constexpr int kPatience = 50;  // solves; each attempt with too little costs a second solve
+  const int stages = backbone.passes->stages;
+  bool wanting = false, easier = true;
   auto element = backbone.elements.begin();
   for (size_t segment = 0; segment < demand_.size(); ++segment) {
-    int& count = backbone.element_count[segment];
+    const int count = backbone.element_count[segment];
     double error = 0.0, bending = 0.0;
     for (int k = 0; k < count; ++k, ++element) {
       error += truncationOf(*element, cancellation_);
-      bending = std::max(bending, element->bending(backbone.passes->stages));
+      bending = std::max(bending, element->bending(stages));
     }
     error *= amplification;
-    if ((error > accuracy_ || bending > 1.4 * kMaxBending) && 2 * count <= Backbone::kMaxElements) {
-      count *= 2;
-      caution_[segment] *= 2.0;
-      refined = true;
-    } else if (caution_[segment] > 1.0 && error < 1e-3 * accuracy_ && bending < 0.4 * kMaxBending) {
-      caution_[segment] = 1.0;
+    // Bending at which elements of so many stages would leave just this error.
+    const double seen = std::pow(error / accuracy_, 0.5 / stages) * bendingOfAnElement(stages, accuracy_) * count;
+    const bool too_long = bending > 1.4 * kMaxBending;
+    seen_caution_[segment] = std::max(1.0, kMargin * seen / demand_[segment]);
+    easier = easier && !too_long && seen_caution_[segment] <= kEasierBy * caution_[segment];
+    if (error <= accuracy_ && !too_long) {
+      seen_caution_[segment] = std::min(seen_caution_[segment], caution_[segment]);
+      continue;
     }
+    wanting = true;
+    const double growth = too_long ? kMostGrowth : seen / demandOf(segment);
+    caution_[segment] *= std::clamp(kMargin * growth, kMargin, kMostGrowth);  // NaN: unchanged
+    // More than what it has was chosen for.
+    const double capacity = count * bendingOfAnElement(stages, accuracy_);
+    caution_[segment] = std::max(caution_[segment], kMargin * capacity / demand_[segment]);
   }
-  if (refined) backbone.resize(backbone.passes->stages);
-  return refined;
+  patience_ = wanting || !easier ? kPatience : patience_ - 1;
+  if (patience_ == 0) {
+    caution_ = seen_caution_;
+    patience_ = kPatience;
+  }
+  return wanting && chooseForDemand(backbone);
 }
 
 }  // namespace live_stiffness

@@ -21,14 +21,17 @@ class Discretisation {
   // compliance made of them.
   double truncation(double cancellation, const Backbone& backbone);
 
-  // Doubles the elements of every segment whose estimated error, times `amplification`, is above the accuracy, or that
-  // bend too far for one Cayley vector. False if there is none to double.
+  // Takes more stages or elements if the estimated error of a segment, times `amplification`, is above the accuracy, or
+  // if its elements bend too far for one Cayley vector. False if all is well or there are no more to take.
   bool refine(double amplification, Backbone& backbone);
 
   // Forgets what refine() has learnt.
   void reset() { std::fill(caution_.begin(), caution_.end(), 1.0); }
 
  private:
+  bool chooseForDemand(Backbone& backbone);
+  double demandOf(size_t segment) const { return demand_[segment] * caution_[segment]; }
+
   const Chain& chain_;
   double accuracy_;
   struct Choice {
@@ -37,9 +40,11 @@ class Discretisation {
     double bending;  // that an element carries at the accuracy, rad
   };
   std::vector<Choice> choices_;
-  std::vector<double> demand_;   // bending that counts for the number of elements, of each segment, rad
+  std::vector<double> demand_;   // bending that counts for the number of elements, of each segment, rad; before caution
   double cancellation_ = 1.0;    // the last given
-  std::vector<double> caution_;  // what refine() has learnt: a factor on the number of elements of each segment
+  std::vector<double> caution_;  // what refine() has learnt: a factor on each demand
+  std::vector<double> seen_caution_;  // what the last solution would have needed
+  int patience_ = 1;                  // solves until less caution is tried
 };
 
 }  // namespace live_stiffness
