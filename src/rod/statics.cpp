@@ -19,17 +19,51 @@ constexpr double kRoughColumns = 1e-2;      // relative error, enough for sweeps
 constexpr double kFineColumns = 1e-12;      // for Newton steps where the residual is nearly singular, or huge
 constexpr double kMostAmplification = 1e6;
 
-// All pivots of L D L^T are positive.
-bool isPositiveDefinite(Matrix6 a) {
+// Compliance, [df; dM] to the twist of T, from the columns for [m0; f] with m0 = X df + Y dM: C = (Q + T^T G) T with
+// T = [X, Y; I, 0], Q the columns' twists and G their defect, if it is to be corrected. By hand, as Eigen takes thrice as long.
+void combine(const ElementColumns& columns, bool correct, const Matrix3& X, const Matrix3& Y, Matrix6& C) {
+  double H[6][6];  // column by column
+  for (int j = 0; j < 6; ++j)
+    for (int i = 0; i < 3; ++i) H[j][i] = columns.p[j][i], H[j][3 + i] = columns.phi[j][i];
+  if (correct) {
+    double T_transposed[3][6];  // its first three columns: [X^T; Y^T]
+    for (int k = 0; k < 3; ++k)
+      for (int i = 0; i < 3; ++i) T_transposed[k][i] = X(k, i), T_transposed[k][3 + i] = Y(k, i);
+    for (int j = 0; j < 6; ++j) {
+      const double g[3] = {columns.defect[0][j], columns.defect[1][j], columns.defect[2][j]};
+      for (int i = 0; i < 6; ++i)
+        H[j][i] += T_transposed[0][i] * g[0] + T_transposed[1][i] * g[1] + T_transposed[2][i] * g[2];
+      for (int i = 0; i < 3; ++i) H[j][i] += columns.defect[3 + i][j];
+    }
+  }
+  for (int j = 0; j < 3; ++j) {
+    double force[6], moment[6];
+    for (int i = 0; i < 6; ++i) {
+      force[i] = H[3 + j][i] + H[0][i] * X(0, j) + H[1][i] * X(1, j) + H[2][i] * X(2, j);
+      moment[i] = H[0][i] * Y(0, j) + H[1][i] * Y(1, j) + H[2][i] * Y(2, j);
+    }
+    for (int i = 0; i < 6; ++i) C(i, j) = force[i], C(i, 3 + j) = moment[i];
+  }
+}
+
+// All pivots of L D L^T of the symmetric part are positive, with `lifted` added to the diagonal of each block.
+bool isPositiveDefinite(const Matrix6& a, double lifted_linear, double lifted_angular) {
+  double l[6][6];
+#pragma GCC unroll 6
+  for (int j = 0; j < 6; ++j) {
+#pragma GCC unroll 6
+    for (int i = j + 1; i < 6; ++i) l[i][j] = 0.5 * (a(i, j) + a(j, i));
+    l[j][j] = a(j, j) + (j < 3 ? lifted_linear : lifted_angular);
+  }
 #pragma GCC unroll 6
   for (int k = 0; k < 6; ++k) {
-    if (!(a(k, k) > 0.0)) return false;
-    const double inverse = 1.0 / a(k, k);
+    if (!(l[k][k] > 0.0)) return false;
+    const double inverse = 1.0 / l[k][k];
 #pragma GCC unroll 6
     for (int j = k + 1; j < 6; ++j) {
-      const double factor = a(j, k) * inverse;
+      const double factor = l[j][k] * inverse;
 #pragma GCC unroll 6
-      for (int i = j; i < 6; ++i) a(i, j) -= factor * a(i, k);
+      for (int i = j; i < 6; ++i) l[i][j] -= factor * l[i][k];
     }
   }
   return true;
@@ -271,29 +305,32 @@ bool StaticsSolver::findAlongLoads(const DeadLoads& loads, Backbone& backbone, S
   return end != BranchEnd::kNotConverged;
 }
 
+// Columns with a relative error x give a compliance with an error of about x. But the linearised rod is its own adjoint
+// as long as no tip moment acts, so the work of one wrench's moments on what another one's columns miss (their defect)
+// is that error to first order; without it x^2 is left. See docs/derivation.md.
 bool StaticsSolver::findTangent(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
   const double goal = 0.2 * accuracy_, shape = report.iteration;
+  const bool self_adjoint = angular(loads.tip).isZero(0.0);
   double cancellation = 1.0;  // on a long taut chain the columns are far larger than the compliance made of them
   for (int attempt = 0; attempt < 2; ++attempt) {
     ElementColumns tip;
-    const double column_goal = std::max(goal / (amplification_ * cancellation), 1e-16);
+    const double error_goal = std::max(goal / (amplification_ * cancellation), 1e-16);
+    const double column_goal = self_adjoint ? std::sqrt(0.5 * error_goal / amplification_) : error_goal;
     const double change = tipColumns(chain_, loads, !has_columns_, column_goal, backbone, tip);
     has_columns_ = std::isfinite(change);
     if (!has_columns_) return false;
-    const auto phi = columnsOf(tip.phi), p = columnsOf(tip.p), m = columnsOf(tip.m);
+    const auto p = columnsOf(tip.p), m = columnsOf(tip.m);
     residual_inverse_ = m.leftCols<3>().inverse();
-    // dm0 = A^-1 (dM - B df), from the residual's columns [A, B]; C maps [df; dM] to the twist of T.
+    // dm0 = A^-1 (dM - B df), from the residual's columns [A, B].
     const Matrix3 m0_of_force = -residual_inverse_ * m.rightCols<3>();
-    tangent_.topLeftCorner<3, 3>() = p.rightCols<3>() + p.leftCols<3>() * m0_of_force;
-    tangent_.topRightCorner<3, 3>() = p.leftCols<3>() * residual_inverse_;
-    tangent_.bottomLeftCorner<3, 3>() = phi.rightCols<3>() + phi.leftCols<3>() * m0_of_force;
-    tangent_.bottomRightCorner<3, 3>() = phi.leftCols<3>() * residual_inverse_;
-    if (!tangent_.allFinite()) return false;
+    combine(tip, self_adjoint, m0_of_force, residual_inverse_, tangent_);
+    if (!std::isfinite(tangent_.sum())) return false;
     amplification_ = std::clamp(tangent_.diagonal().tail<3>().cwiseAbs().maxCoeff() / stiffest_, 1.0, kMostAmplification);
     cancellation = std::max(1.0, p.rightCols<3>().norm() / tangent_.topLeftCorner<3, 3>().norm());
-    report.iteration = shape + change * cancellation;
+    const double left = (self_adjoint ? 2.0 * change * change * amplification_ : change) * cancellation;
+    report.iteration = shape + left;
     report.truncation = discretisation_.truncation(cancellation, backbone);
-    if (change * amplification_ * cancellation <= goal) break;
+    if (left * amplification_ <= goal) break;
   }
   report.amplification = amplification_;
   return true;
@@ -306,13 +343,11 @@ bool StaticsSolver::isStable(const DeadLoads& loads, const Backbone& backbone, c
   // Of a rod without elongation the compliance is singular, and rounding decides its sign. Beyond buckling the negative
   // part is as large as the loads are small.
   constexpr double kRounding = 1e-11;
-  Matrix6 symmetric_part = 0.5 * (tangent_ + tangent_.transpose());
-  const double translation = symmetric_part.topLeftCorner<3, 3>().trace();
-  const double rotation = symmetric_part.bottomRightCorner<3, 3>().trace();
+  const double translation = tangent_.topLeftCorner<3, 3>().trace();
+  const double rotation = tangent_.bottomRightCorner<3, 3>().trace();
   if (!(translation > 0.0) || !(rotation < neutral * softness_)) return false;
-  symmetric_part.diagonal().head<3>().array() += kRounding * translation;
-  symmetric_part.diagonal().tail<3>().array() += kRounding * rotation;
-  return isPositiveDefinite(symmetric_part) && !(mayBuckle(loads, backbone) && hasConjugatePoint(backbone));
+  return isPositiveDefinite(tangent_, kRounding * translation, kRounding * rotation) &&
+         !(mayBuckle(loads, backbone) && hasConjugatePoint(backbone));
 }
 
 // False if the loads are so small that there is one equilibrium only: below 1, this bounds the ratio of load and buckling
