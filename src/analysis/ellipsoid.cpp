@@ -1,4 +1,4 @@
-#include "live_stiffness/compliance/ellipsoid.h"
+#include "live_stiffness/analysis/ellipsoid.h"
 
 #include <Eigen/Eigenvalues>
 
