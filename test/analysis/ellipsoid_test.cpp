@@ -65,8 +65,9 @@ TEST(Ellipsoid, OfAnySizeHasARotationOfFiniteAxes) {
       EXPECT_LE(ellipsoid.half_axes[0], ellipsoid.half_axes[1]);
       EXPECT_LE(ellipsoid.half_axes[1], ellipsoid.half_axes[2]);
       // Relative to the largest, save where numbers are denormal and have no digits.
-      if (eigenvalues[2] > 1e-305)
+      if (eigenvalues[2] > 1e-305) {
         EXPECT_LT((ellipsoid.half_axes / eigenvalues[2] - eigenvalues / eigenvalues[2]).norm(), 1e-14);
+      }
     }
 }
 

@@ -59,8 +59,11 @@ TEST(GeneralisedCompliance, IsReciprocalWithoutATipMoment) {
     for (int a = 0; a < 8; ++a)
       for (int b = 0; b < 8; ++b)
         worst = std::max(worst, scaledCompliance(C.between(a, b) - C.between(b, a).transpose(), length).norm() / size);
-    if (angular(wrench).isZero()) EXPECT_LT(worst, 1e-10);
-    else EXPECT_GT(worst, 1e-4);
+    if (angular(wrench).isZero()) {
+      EXPECT_LT(worst, 1e-10);
+    } else {
+      EXPECT_GT(worst, 1e-4);
+    }
     EXPECT_LT(C.between(kTip, kBase).norm() + C.between(kBase, kTip).norm(), 1e-12 * size);  // the base is clamped
   }
 }
