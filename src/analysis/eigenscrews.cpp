@@ -36,7 +36,8 @@ EigenscrewDecomposition decompose(const Matrix6& matrix, const ElasticCentre& ce
   const Matrix6 vectors = L * solver.eigenvectors();
   for (int i = 0; i < 6; ++i) {
     const Vector6 column = vectors.col(kOrder[i]);
-    const Vector3 along = axis ? column.tail<3>() : column.head<3>(), about = axis ? column.head<3>() : column.tail<3>();
+    const Vector3 along = axis ? column.tail<3>() : column.head<3>(),
+                  about = axis ? column.head<3>() : column.tail<3>();
     const double size = along.norm();
     if (!(size > 0.0) || !std::isfinite(1.0 / size)) return result;
     Eigenscrew& screw = result.screws[i];

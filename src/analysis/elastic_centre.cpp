@@ -33,8 +33,9 @@ ElasticCentre centreOfStiffness(const Matrix6& K) {
   ElasticCentre centre;
   const Matrix6 symmetric = 0.5 * K + 0.5 * K.transpose();
   // About o + d the coupling is K_fw + K_fv hat(d).
-  centre.exists = symmetric.allFinite() && solveForOffset(symmetric.topLeftCorner<3, 3>(),
-                                                          -antisymmetryOf(symmetric.topRightCorner<3, 3>()), centre.offset);
+  centre.exists =
+      symmetric.allFinite() &&
+      solveForOffset(symmetric.topLeftCorner<3, 3>(), -antisymmetryOf(symmetric.topRightCorner<3, 3>()), centre.offset);
   if (!centre.exists) return centre;
   centre.matrix = shiftStiffness(symmetric, centre.offset);
   fillNormalForm(centre);
@@ -45,8 +46,9 @@ ElasticCentre centreOfCompliance(const Matrix6& C) {
   ElasticCentre centre;
   const Matrix6 symmetric = 0.5 * C + 0.5 * C.transpose();
   // About o + d the coupling is C_mv - hat(d) C_mw.
-  centre.exists = symmetric.allFinite() && solveForOffset(symmetric.bottomRightCorner<3, 3>(),
-                                                          antisymmetryOf(symmetric.topRightCorner<3, 3>()), centre.offset);
+  centre.exists =
+      symmetric.allFinite() && solveForOffset(symmetric.bottomRightCorner<3, 3>(),
+                                              antisymmetryOf(symmetric.topRightCorner<3, 3>()), centre.offset);
   if (!centre.exists) return centre;
   centre.matrix = shiftCompliance(symmetric, centre.offset);
   fillNormalForm(centre);

@@ -155,9 +155,9 @@ GeneralisedCompliance::GeneralisedCompliance(const StiffnessModel& model, const 
   ok_ = ok_ && std::isfinite(1.0 / base_to_tip.determinant());
 }
 
-// The wrench [f; M] at stop a leaves the force beyond it as it is and lowers the moment by M there. So, with the unknown
-// change of base moment m0, states up to a are those of (m0, f), and beyond it those of the state at a less M. No
-// moment may be left at T.
+// The wrench [f; M] at stop a leaves the force beyond it as it is and lowers the moment by M there. So, with the
+// unknown change of base moment m0, states up to a are those of (m0, f), and beyond it those of the state at a less M.
+// No moment may be left at T.
 Matrix6 GeneralisedCompliance::between(int from, int to) const {
   using Matrix93 = Eigen::Matrix<double, 9, 3>;
   if (!ok_) return Matrix6::Zero();

@@ -70,7 +70,8 @@ StiffnessCriterion criterionNamed(const std::string& text, FaultList& faults) {
     if (word != named.name || (colon != std::string::npos) != hasDirection(named.kind)) continue;
     StiffnessCriterion criterion;
     criterion.kind = named.kind;
-    if (hasDirection(named.kind)) criterion.direction = directionNamed("criterion " + word, text.substr(colon + 1), faults);
+    if (hasDirection(named.kind))
+      criterion.direction = directionNamed("criterion " + word, text.substr(colon + 1), faults);
     return criterion;
   }
   faults.add("criterion = " + text + ": must be one of largest_eigenstiffness, smallest_eigenstiffness, trace, "

@@ -123,7 +123,8 @@ class Improver {
   void run(const Unknowns& start, FoundPressures& best) {
     best_ = &best;
     const unsigned size = static_cast<unsigned>(start.size());
-    const std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> optimiser(nlopt_create(NLOPT_LD_SLSQP, size), nlopt_destroy);
+    const std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> optimiser(nlopt_create(NLOPT_LD_SLSQP, size),
+                                                                      nlopt_destroy);
     optimiser_ = optimiser.get();
     nlopt_set_lower_bounds1(optimiser_, 0.0);
     nlopt_set_upper_bounds1(optimiser_, 1.0);

@@ -17,8 +17,9 @@ StiffnessSweep::StiffnessSweep(const StiffnessModel& model, const PressurePlan& 
     : model_(model), plan_(plan), criterion_(criterion), kind_(kind) {
   const int chambers = model.scene().chamberCount(), mapped = plan.channels().chamberCount();
   if (mapped != chambers)
-    throw ConfigurationError("stiffness map", {"the channels feed " + std::to_string(mapped) + " chambers, but the scene has " +
-                                               std::to_string(chambers) + ": name the channel of each chamber"});
+    throw ConfigurationError("stiffness map",
+                             {"the channels feed " + std::to_string(mapped) + " chambers, but the scene has " +
+                              std::to_string(chambers) + ": name the channel of each chamber"});
 }
 
 SweepRow StiffnessSweep::solve(long row, StiffnessWorkspace& workspace, Pressures& chambers) const {
@@ -59,8 +60,8 @@ void StiffnessSweep::run(const Sink& sink, int threads, long block) const {
         for (long i = range.begin(); i != range.end(); ++i)
           rows[i] = solve(first + i, worker.workspace, worker.chambers);
       });
+      sink(first, rows);  // here, so that it keeps to the threads, too
     });
-    sink(first, rows);
   }
 }
 

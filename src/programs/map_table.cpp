@@ -62,7 +62,8 @@ MapTable::MapTable(const std::string& csv_path, const std::string& npy_path, con
   if (npy_path.empty()) return;
   npy_ = opened(npy_path);
   // NumPy's format 1.0: magic, version, length of what follows, a Python literal padded to 64 bytes.
-  std::string literal = "{'descr': [" + fields + "], 'fortran_order': False, 'shape': (" + std::to_string(plan.rows()) + ",), }";
+  std::string literal =
+      "{'descr': [" + fields + "], 'fortran_order': False, 'shape': (" + std::to_string(plan.rows()) + ",), }";
   literal.append(63 - (10 + literal.size()) % 64, ' ');
   literal += '\n';
   const unsigned char start[] = {0x93, 'N', 'U', 'M', 'P', 'Y', 1, 0, static_cast<unsigned char>(literal.size() & 255),

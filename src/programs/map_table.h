@@ -9,8 +9,8 @@
 
 namespace live_stiffness {
 
-// p_1_pa ... p_N_pa (of the chambers), status, x_m .. qz, eta_1_n .. eta_6_n, tau_n or tau_n_per_m. A failed row keeps its
-// columns, empty.
+// p_1_pa ... p_N_pa (of the chambers), status, x_m .. qz, eta_1_n .. eta_6_n, tau_n or tau_n_per_m. A failed row keeps
+// its columns, empty.
 class MapTable {
  public:
   // Starts the files; npy_path empty: no array. Throws ConfigurationError if one cannot be written.

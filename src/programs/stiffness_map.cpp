@@ -49,8 +49,9 @@ std::vector<PressureRange> readRanges(const Arguments& arguments, FaultList& fau
   const size_t wanted = arguments.random > 0 ? 2 : 3;
   for (const std::string& text : arguments.grid) {
     std::vector<double> numbers;
-    const bool good = readNumbers(text, ':', numbers) && (numbers.size() == 3 || numbers.size() == wanted) &&
-                      (numbers.size() < 3 || (numbers[2] >= 1.0 && numbers[2] <= 1e9 && numbers[2] == std::floor(numbers[2])));
+    const bool good =
+        readNumbers(text, ':', numbers) && (numbers.size() == 3 || numbers.size() == wanted) &&
+        (numbers.size() < 3 || (numbers[2] >= 1.0 && numbers[2] <= 1e9 && numbers[2] == std::floor(numbers[2])));
     if (good) ranges.push_back({numbers[0], numbers[1], numbers.size() > 2 ? static_cast<long>(numbers[2]) : 1});
     else
       faults.add("grid = " + text + ": must be FROM:TO:COUNT, gauge pressures in Pa and a whole number from 1 to 1e9" +
@@ -92,7 +93,9 @@ int sweep(const StiffnessModel& model, const ChannelMap& channels, const Argumen
   long failed = 0;
   double least = std::numeric_limits<double>::infinity(), most = -least, writing_s = 0.0;
   using Clock = std::chrono::steady_clock;
-  const auto since = [](Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  const auto since = [](Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+  };
   const auto start = Clock::now();
   sweep.run(
       [&](long first, const std::vector<SweepRow>& rows) {
@@ -113,9 +116,11 @@ int sweep(const StiffnessModel& model, const ChannelMap& channels, const Argumen
   table.close();
   const double total_s = since(start);
   const int threads = arguments.threads > 0 ? arguments.threads : static_cast<int>(std::thread::hardware_concurrency());
-  std::fprintf(stderr, "%ld configurations, %ld without result, in %.2f s on %d threads: %.2f us each and thread to solve "
-               "and analyse, %.2f us to write\n", plan.rows(), failed, total_s, threads,
-               1e6 * (total_s - writing_s) * threads / plan.rows(), 1e6 * writing_s * threads / plan.rows());
+  std::fprintf(stderr,
+               "%ld configurations, %ld without result, in %.2f s on %d threads: %.2f us each and thread to solve "
+               "and analyse, %.2f us to write\n",
+               plan.rows(), failed, total_s, threads, 1e6 * (total_s - writing_s) * threads / plan.rows(),
+               1e6 * writing_s * threads / plan.rows());
   if (failed < plan.rows())
     std::fprintf(stderr, "%s from %.6g to %.6g %s\n", criterion.name().c_str(), least, most, criterion.unit());
   return kExitOk;
@@ -136,7 +141,8 @@ int find(const StiffnessModel& model, const ChannelMap& channels, const Argument
   const Vector3 direction = directionNamed("direction", arguments.direction, faults);
   std::vector<double> at;
   if (!readNumbers(arguments.at, ',', at) || at.size() != 3)
-    faults.add("at = " + (arguments.at.empty() ? "(missing)" : arguments.at) + ": must be a point x,y,z in m, base axes");
+    faults.add("at = " + (arguments.at.empty() ? "(missing)" : arguments.at) +
+               ": must be a point x,y,z in m, base axes");
   faults.throwIfAny();
   FinderOptions options;
   options.max_pressure = 1e5 * arguments.max_bar;
@@ -188,12 +194,12 @@ int main(int argc, char** argv) {
                                               "again for each")
     ("random", po::value(&a.random), "so many random configurations within the ranges of --grid instead")
     ("seed", po::value(&a.seed)->default_value(a.seed), "of the random numbers")
-    ("channels", po::value(&a.channels), "channels that feed neighbouring chambers, 3 for the paper's pairs; default: one "
-                                         "for each chamber")
+    ("channels", po::value(&a.channels),
+     "channels that feed neighbouring chambers, 3 for the paper's pairs; default: one for each chamber")
     ("channel-of-chamber", po::value(&a.channel_of_chamber), "the channel of each chamber from 0, such as 0,0,1,1,2,2")
     ("criterion", po::value(&a.criterion)->default_value(a.criterion),
-     "tau: largest_eigenstiffness, smallest_eigenstiffness, trace, largest_stiffness, smallest_stiffness, directional:D "
-     "(all else free) or constrained:D (all else held), D = x, y, z or dx,dy,dz")
+     "tau: largest_eigenstiffness, smallest_eigenstiffness, trace, largest_stiffness, smallest_stiffness, "
+     "directional:D (all else free) or constrained:D (all else held), D = x, y, z or dx,dy,dz")
     ("compliance", po::value(&a.compliance)->default_value(a.compliance), "tangent (felt by a hand) or material (the "
                                                                           "paper's integral)")
     ("output,o", po::value(&a.output)->default_value(a.output), "CSV file; - is standard output")
@@ -206,17 +212,19 @@ int main(int argc, char** argv) {
     ("tolerance-mm", po::value(&a.tolerance_mm)->default_value(a.tolerance_mm, "0.1"), "largest miss of --find")
     ("starts", po::value(&a.starts)->default_value(a.starts), "random starts of --find")
     ("model", po::value(&a.model), "lpcc, npcc, lcm or ncm (default: ncm)")
-    ("stepping", po::value(&a.stepping), "fixed_step, continuous or linear (default: as the model says; --find: "
-                                         "continuous, since the number of fixed steps jumps with pressure)")
-    ("accuracy", po::value(&a.accuracy)->default_value(a.accuracy, "1e-6"), "relative, of pose and compliance; --find: "
-                                                                             "at least 1e-10")
+    ("stepping", po::value(&a.stepping),
+     "fixed_step, continuous or linear (default: as the model says; --find: continuous, since the number of fixed steps "
+     "jumps with pressure)")
+    ("accuracy", po::value(&a.accuracy)->default_value(a.accuracy, "1e-6"),
+     "relative, of pose and compliance; --find: at least 1e-10")
     ("scene", po::value(&a.scene)->required(), "scene file");
   po::positional_options_description positional;
   positional.add("scene", 1);
   // --max_bar is --max-bar.
   std::vector<std::string> words(argv + 1, argv + argc);
   for (std::string& word : words)
-    if (word.compare(0, 2, "--") == 0) std::replace(word.begin(), word.begin() + std::min(word.find('='), word.size()), '_', '-');
+    if (word.compare(0, 2, "--") == 0)
+      std::replace(word.begin(), word.begin() + std::min(word.find('='), word.size()), '_', '-');
   try {
     po::variables_map values;
     po::store(po::command_line_parser(words)

@@ -121,7 +121,8 @@ TEST(Eigenscrews, OfTheRobotDoNotDependOnTheFrame) {
   ASSERT_TRUE(solution.status.ok());
   const Eigenstiffnesses tip = eigenstiffnessesOfCompliance(solution.compliance);
   const Eigenstiffnesses base = eigenstiffnessesOfCompliance(shiftCompliance(solution.compliance, -solution.X_BT.p));
-  const Eigenstiffnesses body = eigenstiffnessesOfCompliance(complianceInBodyAxes(solution.compliance, solution.X_BT.R));
+  const Eigenstiffnesses body =
+      eigenstiffnessesOfCompliance(complianceInBodyAxes(solution.compliance, solution.X_BT.R));
   ASSERT_TRUE(tip.definite && base.definite && body.definite);
   EXPECT_TRUE(matrixNear(base.values, tip.values, 1e-10 * tip.values.norm()));
   EXPECT_TRUE(matrixNear(body.values, tip.values, 1e-10 * tip.values.norm()));

@@ -76,7 +76,8 @@ TEST(GeneralisedCompliance, WithoutLoadIsTheMaterialComplianceUpToTheNearerPlace
   for (int a : {1, 2, 5, 6})
     for (int b : {1, 2, 5, 6}) {
       const auto before = [&](int x, int y) {
-        return std::make_pair(kPlaces[x].segment, kPlaces[x].fraction) <= std::make_pair(kPlaces[y].segment, kPlaces[y].fraction);
+        return std::make_pair(kPlaces[x].segment, kPlaces[x].fraction) <=
+               std::make_pair(kPlaces[y].segment, kPlaces[y].fraction);
       };
       const int nearer = before(a, b) ? a : b;
       const Station station = s.model.station(s.workspace, kPlaces[nearer].segment, kPlaces[nearer].fraction);

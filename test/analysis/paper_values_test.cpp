@@ -34,8 +34,8 @@ TEST(PaperValues, TipComplianceBentByOnePair) {
   EXPECT_NEAR(found[2], 4.38, 0.02);
 }
 
-// Fig. 10: 4.37 at the centre, that is at rest, to 1.49 N with all chambers at 1 bar. NCM. Of a straight robot it is that
-// of stretch and torsion, which weight does not change: tangent and material agree.
+// Fig. 10: 4.37 at the centre, that is at rest, to 1.49 N with all chambers at 1 bar. NCM. Of a straight robot it is
+// that of stretch and torsion, which weight does not change: tangent and material agree.
 TEST(PaperValues, LargestEigenstiffness) {
   const StiffnessModel model(paperScene(1), {});
   const auto largest = [&](double bar) {

@@ -21,11 +21,11 @@ std::vector<SweepRow> rowsOf(const StiffnessSweep& sweep, int threads, long bloc
 
 TEST(StiffnessSweep, IsTheSameBitForBitWhateverTheThreads) {
   const StiffnessModel model(paperScene(1), accurateTo(1e-6));
-  const PressurePlan plan = PressurePlan::sample({{0.0, 4e5, 1}}, ChannelMap::even(3, 6), 3000, 1);
+  const PressurePlan plan = PressurePlan::sample({{0.0, 4e5, 1}}, ChannelMap::even(3, 6), 200, 1);
   const StiffnessSweep sweep(model, plan, {}, ComplianceKind::kTangent);
-  const std::vector<SweepRow> one = rowsOf(sweep, 1, 10000), many = rowsOf(sweep, 4, 700);
-  ASSERT_EQ(one.size(), 3000u);
-  ASSERT_EQ(many.size(), 3000u);
+  const std::vector<SweepRow> one = rowsOf(sweep, 1, 10000), many = rowsOf(sweep, 4, 70);
+  ASSERT_EQ(one.size(), 200u);
+  ASSERT_EQ(many.size(), 200u);
   int failed = 0;
   for (size_t i = 0; i < one.size(); ++i) {
     EXPECT_EQ(one[i].code, many[i].code);
@@ -34,7 +34,7 @@ TEST(StiffnessSweep, IsTheSameBitForBitWhateverTheThreads) {
     failed += one[i].code != SolveCode::kOk;
   }
   EXPECT_GT(failed, 0);  // all chambers at 4 bar are beyond the section's range, or topple
-  EXPECT_LT(failed, 3000);
+  EXPECT_LT(failed, 200);
 }
 
 TEST(StiffnessSweep, RowsAreThoseOfTheModel) {

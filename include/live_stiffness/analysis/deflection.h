@@ -7,7 +7,7 @@ namespace live_stiffness {
 
 struct PredictedDeflection {
   Twist twist = Twist::Zero();  // C w: small twist of T, base axes
-  Pose linear;       // T moved by the linear part, turned by the exponential of the angular part: no coupling of the two
+  Pose linear;  // T moved by the linear part, turned by the exponential of the angular part: no coupling of the two
   Pose exponential;  // (19): X_BT exp(twist in body axes), a screw motion; equals exp(twist about the base origin) X_BT
 };
 

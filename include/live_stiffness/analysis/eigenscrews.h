@@ -9,11 +9,11 @@
 //
 // Lines and pitches are properties of the spring and not of the frame, so eigenvalues and pitches do not depend on it.
 // Both eigenvalue problems are unsymmetric and may be badly scaled, and are therefore not solved as they stand: with
-// the Cholesky factor K = L L^T, K Delta has the eigenvalues of the symmetric L^T Delta L, all of whose entries have the
-// unit of force, so that no characteristic length is needed; and the factor itself is as accurate whatever the units,
-// since scaling rows and columns of K scales those of L. Eigenvalues are real without being made so, three positive and
-// three negative by Sylvester's law; rounding is relative to the largest one. Before that K is moved to its centre
-// (elastic_centre.h), so that a far point of reference costs only the digits that it had lost already.
+// the Cholesky factor K = L L^T, K Delta has the eigenvalues of the symmetric L^T Delta L, all of whose entries have
+// the unit of force, so that no characteristic length is needed; and the factor itself is as accurate whatever the
+// units, since scaling rows and columns of K scales those of L. Eigenvalues are real without being made so, three
+// positive and three negative by Sylvester's law; rounding is relative to the largest one. Before that K is moved to
+// its centre (elastic_centre.h), so that a far point of reference costs only the digits that it had lost already.
 
 #include <array>
 
@@ -24,7 +24,7 @@ namespace live_stiffness {
 struct Eigenscrew {
   double eigenvalue = 0.0;              // of K Delta: eigenstiffness, N; of C Delta: eigencompliance, 1/N
   double pitch = 0.0;                   // h, m/rad; its sign is that of the eigenvalue
-  Vector3 point = Vector3::Zero();      // of the axis, the one nearest to the point that the matrix is about; from there, m
+  Vector3 point = Vector3::Zero();  // of the axis, the one nearest to the point that the matrix is about; from there, m
   Vector3 direction = Vector3::Zero();  // n, unit vector; the sign means nothing: its largest component is positive
   double coefficient = 0.0;             // of K: k, N/m; of C: that of t t^T, rad/(N m)
 };

@@ -20,8 +20,8 @@ struct SectionPlace {
 class GeneralisedCompliance {
  public:
   // Linearises the equilibrium that the last successful solve left in `workspace`. tip_wrench: that of this solve.
-  // Throws ConfigurationError for a segment that the scene does not have or a fraction outside 0 to 1. The solve is kept
-  // by copy; the workspace may go on.
+  // Throws ConfigurationError for a segment that the scene does not have or a fraction outside 0 to 1. The solve is
+  // kept by copy; the workspace may go on.
   GeneralisedCompliance(const StiffnessModel& model, const StiffnessWorkspace& workspace, const Wrench& tip_wrench,
                         const std::vector<SectionPlace>& places);
 
@@ -37,8 +37,8 @@ class GeneralisedCompliance {
   const Pose& pose(int place) const { return stops_[stop_of_place_[place]].X; }
 
  private:
-  // How a change of state [phi; dp; dm] (rotation, rad; position, m; moment, N m; base axes), and of the force that acts
-  // all along, arrives further on.
+  // How a change of state [phi; dp; dm] (rotation, rad; position, m; moment, N m; base axes), and of the force that
+  // acts all along, arrives further on.
   struct Transfer {
     Eigen::Matrix<double, 9, 9> of_state = Eigen::Matrix<double, 9, 9>::Identity();
     Eigen::Matrix<double, 9, 3> of_force = Eigen::Matrix<double, 9, 3>::Zero();

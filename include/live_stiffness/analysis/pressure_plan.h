@@ -25,8 +25,8 @@ class PressurePlan {
   // kMostRows rows.
   static PressurePlan grid(const std::vector<PressureRange>& ranges, ChannelMap channels);
 
-  // `rows` draws, evenly distributed between the ends of each range. Row i depends on seed and i alone, on every machine.
-  // Throws likewise.
+  // `rows` draws, evenly distributed between the ends of each range. Row i depends on seed and i alone, on every
+  // machine. Throws likewise.
   static PressurePlan sample(const std::vector<PressureRange>& ranges, ChannelMap channels, long rows,
                              std::uint64_t seed);
 
