@@ -5,9 +5,9 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <ctime>
 #include <iostream>
 #include <limits>
-#include <thread>
 
 #include "live_stiffness/analysis/stiffness_finder.h"
 #include "live_stiffness/rod/scene_file.h"
@@ -91,12 +91,11 @@ int sweep(const StiffnessModel& model, const ChannelMap& channels, const Argumen
   MapTable table(arguments.output, arguments.npy, plan, criterion);
   ProgressBar bar("stiffness_map", plan.rows());
   long failed = 0;
-  double least = std::numeric_limits<double>::infinity(), most = -least, writing_s = 0.0;
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  std::clock_t writing = 0;
   using Clock = std::chrono::steady_clock;
-  const auto since = [](Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-  };
   const auto start = Clock::now();
+  const std::clock_t start_cpu = std::clock();
   sweep.run(
       [&](long first, const std::vector<SweepRow>& rows) {
         for (const SweepRow& row : rows) {
@@ -107,20 +106,21 @@ int sweep(const StiffnessModel& model, const ChannelMap& channels, const Argumen
           least = std::min(least, row.tau);
           most = std::max(most, row.tau);
         }
-        const auto written = Clock::now();
+        const std::clock_t before = std::clock();
         table.write(first, rows);
-        writing_s += since(written);
+        writing += std::clock() - before;
         bar.update(first + static_cast<long>(rows.size()));
       },
       arguments.threads);
   table.close();
-  const double total_s = since(start);
-  const int threads = arguments.threads > 0 ? arguments.threads : static_cast<int>(std::thread::hardware_concurrency());
+  const double total_s = std::chrono::duration<double>(Clock::now() - start).count();
+  // Processor time, all threads together: it does not count what else the machine does.
+  const double us_per_row = 1e6 / CLOCKS_PER_SEC / static_cast<double>(plan.rows());
   std::fprintf(stderr,
-               "%ld configurations, %ld without result, in %.2f s on %d threads: %.2f us each and thread to solve "
-               "and analyse, %.2f us to write\n",
-               plan.rows(), failed, total_s, threads, 1e6 * (total_s - writing_s) * threads / plan.rows(),
-               1e6 * writing_s * threads / plan.rows());
+               "%ld configurations, %ld without result, in %.2f s; on one core %.2f us each to solve and analyse and "
+               "%.2f us to write\n",
+               plan.rows(), failed, total_s, us_per_row * static_cast<double>(std::clock() - start_cpu - writing),
+               us_per_row * static_cast<double>(writing));
   if (failed < plan.rows())
     std::fprintf(stderr, "%s from %.6g to %.6g %s\n", criterion.name().c_str(), least, most, criterion.unit());
   return kExitOk;
@@ -213,8 +213,8 @@ int main(int argc, char** argv) {
     ("starts", po::value(&a.starts)->default_value(a.starts), "random starts of --find")
     ("model", po::value(&a.model), "lpcc, npcc, lcm or ncm (default: ncm)")
     ("stepping", po::value(&a.stepping),
-     "fixed_step, continuous or linear (default: as the model says; --find: continuous, since the number of fixed steps "
-     "jumps with pressure)")
+     "fixed_step, continuous or linear (default: as the model says; --find: continuous, since the number of fixed "
+     "steps jumps with pressure)")
     ("accuracy", po::value(&a.accuracy)->default_value(a.accuracy, "1e-6"),
      "relative, of pose and compliance; --find: at least 1e-10")
     ("scene", po::value(&a.scene)->required(), "scene file");
