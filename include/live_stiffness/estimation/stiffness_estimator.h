@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "live_stiffness/compliance/ellipsoid.h"
+#include "live_stiffness/analysis/ellipsoid.h"
 #include "live_stiffness/compliance/stiffness_model.h"
 
 namespace live_stiffness {

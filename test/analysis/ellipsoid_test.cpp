@@ -1,4 +1,4 @@
-#include "live_stiffness/compliance/ellipsoid.h"
+#include "live_stiffness/analysis/ellipsoid.h"
 
 #include <gtest/gtest.h>
 
@@ -47,6 +47,36 @@ TEST(Ellipsoid, DirectionsDoNotFlipUnderASmallChange) {
     // Unless a largest component ties with another, which a seeded draw does not hit, the axes move with the matrix.
     EXPECT_LT((after - before).norm(), 1e-7);
   }
+}
+
+// From the smallest to the largest numbers there are, and side by side.
+TEST(Ellipsoid, OfAnySizeHasARotationOfFiniteAxes) {
+  std::mt19937 random(3);
+  for (const Vector3& eigenvalues :
+       {Vector3(1e-300, 1.0, 1e300), Vector3(1e-300, 2e-300, 2e-300), Vector3(1e300, 1e300, 2e300),
+        Vector3(1e-300, 1e-300, 1.0), Vector3(5e-324, 1e-310, 1e-308), Vector3(0.0, 0.0, 0.0)})
+    for (int i = 0; i < 20; ++i) {
+      const Matrix3 R = randomRotation(random);
+      const Matrix3 block = R * eigenvalues.asDiagonal() * R.transpose();
+      const Ellipsoid ellipsoid = ellipsoidOf(block);
+      ASSERT_TRUE(ellipsoid.half_axes.allFinite() && ellipsoid.directions.allFinite()) << eigenvalues.transpose();
+      EXPECT_LT((ellipsoid.directions.transpose() * ellipsoid.directions - Matrix3::Identity()).norm(), 1e-14);
+      EXPECT_NEAR(ellipsoid.directions.determinant(), 1.0, 1e-14);
+      EXPECT_LE(ellipsoid.half_axes[0], ellipsoid.half_axes[1]);
+      EXPECT_LE(ellipsoid.half_axes[1], ellipsoid.half_axes[2]);
+      // Relative to the largest, save where numbers are denormal and have no digits.
+      if (eigenvalues[2] > 1e-305) {
+        EXPECT_LT((ellipsoid.half_axes / eigenvalues[2] - eigenvalues / eigenvalues[2]).norm(), 1e-14);
+      }
+    }
+}
+
+TEST(Ellipsoid, OfBothBlocksOfASixBySixMatrix) {
+  Matrix6 matrix = Matrix6::Zero();
+  matrix.diagonal() << 3.0, 1.0, 2.0, 6.0, 5.0, 4.0;
+  const EllipsoidPair pair = ellipsoidsOf(matrix);
+  EXPECT_LT((pair.translation.half_axes - Vector3(1.0, 2.0, 3.0)).norm(), 1e-14);
+  EXPECT_LT((pair.rotation.half_axes - Vector3(4.0, 5.0, 6.0)).norm(), 1e-14);
 }
 
 TEST(Ellipsoid, UsesTheSymmetricPartOfAnUnsymmetricBlock) {

@@ -1,11 +1,11 @@
-#include "live_stiffness/compliance/ellipsoid.h"
+#include "live_stiffness/analysis/ellipsoid.h"
 
 #include <Eigen/Eigenvalues>
 
 namespace live_stiffness {
 
 Ellipsoid ellipsoidOf(const Matrix3& block) {
-  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(0.5 * (block + block.transpose()));
+  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(0.5 * block + 0.5 * block.transpose());
   Ellipsoid ellipsoid;
   ellipsoid.half_axes = solver.eigenvalues();
   ellipsoid.directions = solver.eigenvectors();
@@ -16,6 +16,10 @@ Ellipsoid ellipsoidOf(const Matrix3& block) {
   }
   ellipsoid.directions.col(2) = ellipsoid.directions.col(0).cross(ellipsoid.directions.col(1));
   return ellipsoid;
+}
+
+EllipsoidPair ellipsoidsOf(const Matrix6& matrix) {
+  return {ellipsoidOf(matrix.topLeftCorner<3, 3>()), ellipsoidOf(matrix.bottomRightCorner<3, 3>())};
 }
 
 }  // namespace live_stiffness

@@ -1,0 +1,45 @@
+#pragma once
+// Which pressures bring the tip to a point and make it stiffest, or softest, along a direction there. A robot with more
+// channels than three reaches most points in many ways; this is the best of them.
+
+#include <cstdint>
+
+#include "live_stiffness/compliance/stiffness_model.h"
+#include "live_stiffness/section/channel_map.h"
+
+namespace live_stiffness {
+
+struct FinderOptions {
+  double max_pressure = 1e5;  // every channel is kept within 0 and this, Pa
+  double tolerance = 1e-4;    // largest miss of the point, m
+  int starts = 24;            // seeded random starts beside the middle of the range
+  std::uint64_t seed = 1;
+};
+
+struct FoundPressures {
+  Pressures channels;     // gauge, Pa
+  Pose X_BT;
+  double miss = 0.0;      // distance of the tip from the point, m
+  double stiffness = 0.0;  // free stiffness along the direction through the tip, 1 / (d^T C d), tangent, N/m
+};
+
+struct FinderResult {
+  bool solvable = false;   // a configuration was solved at all; false: nothing below holds
+  bool reached = false;    // `stiffest` and `softest` hold
+  FoundPressures nearest;  // the tip as near to the point as was found
+  FoundPressures stiffest, softest;
+  long solves = 0;
+};
+
+// Tip to `point` (base axes, m), stiffness along `direction` (base axes, not zero). Each start is first brought to the
+// point by damped least squares within the bounds; if none arrives, the point is out of reach as far as was seen. From
+// each that arrives sequential quadratic programming (SLSQP of NLopt: D. Kraft, "A software package for sequential
+// quadratic programming", DFVLR-FB 88-28, 1988) then improves the logarithm of the stiffness along the manifold of
+// pressures that hold the tip, by central differences. Both are local: the best of all starts is returned, which no
+// bound proves to be the best of all. Differences need a smooth model; the steps of Stepping::kFixedStep change in
+// number with the pressures and make it jump, so use kContinuous or kLinear. Throws ConfigurationError on bad options,
+// a point or direction that is not finite, and channels that do not fit the scene.
+FinderResult findPressures(const StiffnessModel& model, const ChannelMap& channels, const Vector3& point,
+                           const Vector3& direction, const FinderOptions& options);
+
+}  // namespace live_stiffness

@@ -1,0 +1,36 @@
+#include "live_stiffness/analysis/deflection.h"
+
+namespace live_stiffness {
+
+PredictedDeflection predictDeflection(const Pose& X_BT, const Matrix6& C, const Wrench& wrench) {
+  PredictedDeflection predicted;
+  predicted.twist = C * wrench;
+  const Vector3 v = linear(predicted.twist), w = angular(predicted.twist);
+  predicted.linear = {expSo3(w) * X_BT.R, X_BT.p + v};
+  predicted.exponential = X_BT * expSe3(X_BT.R.transpose() * v, X_BT.R.transpose() * w, 1.0);
+  return predicted;
+}
+
+PoseDifference differenceOf(const Pose& a, const Pose& b) {
+  return {(a.p - b.p).norm(), logSo3(a.R * b.R.transpose()).norm()};
+}
+
+DeflectionCheck checkDeflection(const StiffnessModel& model, PressuresRef pressures, const Wrench& wrench,
+                                const Wrench& added, StiffnessWorkspace& workspace) {
+  DeflectionCheck check;
+  workspace.reset();
+  const StiffnessSolution before = model.solve(pressures, wrench, workspace);
+  check.status = before.status;
+  if (!before.status.ok()) return check;
+  check.undeflected_ok = true;
+  check.predicted = predictDeflection(before.X_BT, before.compliance, added);
+  const StiffnessSolution after = model.solve(pressures, wrench + added, workspace);
+  check.status = after.status;
+  if (!after.status.ok()) return check;
+  check.exact = after.X_BT;
+  check.linear_error = differenceOf(check.predicted.linear, check.exact);
+  check.exponential_error = differenceOf(check.predicted.exponential, check.exact);
+  return check;
+}
+
+}  // namespace live_stiffness

@@ -1,0 +1,68 @@
+#include "live_stiffness/analysis/stiffness_sweep.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "live_stiffness/analysis/eigenscrews.h"
+
+namespace live_stiffness {
+
+StiffnessSweep::StiffnessSweep(const StiffnessModel& model, const PressurePlan& plan,
+                               const StiffnessCriterion& criterion, ComplianceKind kind)
+    : model_(model), plan_(plan), criterion_(criterion), kind_(kind) {
+  const int chambers = model.scene().chamberCount(), mapped = plan.channels().chamberCount();
+  if (mapped != chambers)
+    throw ConfigurationError("stiffness map",
+                             {"the channels feed " + std::to_string(mapped) + " chambers, but the scene has " +
+                              std::to_string(chambers) + ": name the channel of each chamber"});
+}
+
+SweepRow StiffnessSweep::solve(long row, StiffnessWorkspace& workspace, Pressures& chambers) const {
+  SweepRow result;
+  plan_.chamberPressures(row, chambers);
+  workspace.reset();
+  const StiffnessSolution solution = model_.solve(chambers, Wrench::Zero(), workspace);
+  result.code = solution.status.code;
+  if (!solution.status.ok()) return result;
+  const Matrix6& C = kind_ == ComplianceKind::kTangent ? solution.compliance : solution.material_compliance;
+  const Eigenstiffnesses eta = eigenstiffnessesOfCompliance(C);
+  result.X_BT = solution.X_BT;
+  result.eigenstiffnesses = eta.values;
+  switch (criterion_.kind) {  // those at hand already
+    case CriterionKind::kLargestEigenstiffness: result.tau = eta.values[0]; break;
+    case CriterionKind::kSmallestEigenstiffness: result.tau = eta.values[2]; break;
+    default: result.tau = criterion_(C);
+  }
+  if (!eta.definite || !std::isfinite(result.tau)) result.code = SolveCode::kUnstable;
+  return result;
+}
+
+void StiffnessSweep::run(const Sink& sink, int threads, long block) const {
+  struct Worker {
+    StiffnessWorkspace workspace;
+    Pressures chambers;
+  };
+  tbb::enumerable_thread_specific<Worker> workers([&] {
+    return Worker{model_.makeWorkspace(), Pressures::Zero(model_.scene().chamberCount())};
+  });
+  tbb::task_arena arena(threads > 0 ? threads : static_cast<int>(tbb::task_arena::automatic));
+  std::vector<SweepRow> rows;
+  for (long first = 0; first < plan_.rows(); first += block) {
+    rows.resize(std::min(block, plan_.rows() - first));
+    arena.execute([&] {
+      tbb::parallel_for(tbb::blocked_range<long>(0, static_cast<long>(rows.size()), 64), [&](const auto& range) {
+        Worker& worker = workers.local();
+        for (long i = range.begin(); i != range.end(); ++i)
+          rows[i] = solve(first + i, worker.workspace, worker.chambers);
+      });
+      sink(first, rows);  // here, so that it keeps to the threads, too
+    });
+  }
+}
+
+}  // namespace live_stiffness

@@ -1,0 +1,36 @@
+#pragma once
+// What stiffness_map writes: a CSV, and optionally the same as a NumPy array.
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "live_stiffness/analysis/stiffness_sweep.h"
+
+namespace live_stiffness {
+
+// p_1_pa ... p_N_pa (of the chambers), status, x_m .. qz, eta_1_n .. eta_6_n, tau_n or tau_n_per_m. A failed row keeps
+// its columns, empty.
+class MapTable {
+ public:
+  // Starts the files; npy_path empty: no array. Throws ConfigurationError if one cannot be written.
+  MapTable(const std::string& csv_path, const std::string& npy_path, const PressurePlan& plan,
+           const StiffnessCriterion& criterion);
+  ~MapTable();
+  MapTable(const MapTable&) = delete;
+  MapTable& operator=(const MapTable&) = delete;
+
+  // Rows from `first` on; texts are made on all cores.
+  void write(long first, const std::vector<SweepRow>& rows);
+  // Closes the files. Throws ConfigurationError if the disk did not take all.
+  void close();
+
+ private:
+  void writeArray(long first, const std::vector<SweepRow>& rows);
+
+  const PressurePlan& plan_;
+  std::FILE* csv_ = nullptr;
+  std::FILE* npy_ = nullptr;
+};
+
+}  // namespace live_stiffness
