@@ -10,6 +10,9 @@
 namespace live_stiffness {
 namespace {
 
+// Rods under end loads need so many elements of three stages that those of five are quicker even for less.
+constexpr double kCoarsest = 1e-7;
+
 Scene sceneOf(const ParallelRod& rod) {
   Scene scene;
   Segment segment;
@@ -70,7 +73,7 @@ HeldRod::HeldRod(const ParallelRod& rod, const Vector3& gravity, double accuracy
       scene_(sceneOf(rod)),
       chain_(scene_),
       backbone_(scene_, simd),
-      discretisation_(chain_, accuracy, 0) {
+      discretisation_(chain_, std::min(accuracy, kCoarsest), 0) {
   backbone_.rest[0].c = SectionMoments(rod.section).complianceDensity(1.0);
   softness_ = backbone_.rest[0].c.bending_torsion.diagonal().maxCoeff();
   choose();
@@ -98,8 +101,9 @@ void HeldRod::placeStraight() {
   nodes_hold_guess_ = has_columns_ = false;
 }
 
-Sweep HeldRod::sweepOnce(bool finish) {
-  const Pass pass = !nodes_hold_guess_ ? Pass::kAnew : finish ? Pass::kFinish : Pass::kOnce;
+Sweep HeldRod::sweepOnce() {
+  // Only a finished pass knows where the end is.
+  const Pass pass = nodes_hold_guess_ ? Pass::kFinish : Pass::kAnew;
   const Sweep result = sweep(chain_, loads(), load_.tail<3>(), pass, backbone_);
   end_moment_ = result.residual;
   nodes_hold_guess_ = result.sound;
@@ -186,11 +190,6 @@ Matrix6 HeldRod::materialCompliance(double accuracy) {
 
 double HeldRod::bendingOf(const Vector6& load) const {
   return softness_ * length() * std::max(length() * load.head<3>().norm(), load.tail<3>().norm());
-}
-
-double HeldRod::scaledStiffness() const {
-  const double L = length();
-  return softness_ * L * std::max(L * L * stiffness_.topLeftCorner<3, 3>().norm(), stiffness_.bottomRightCorner<3, 3>().norm());
 }
 
 // Of the rotations phi(s) with phi = 0 at both ends, free to move the end, the second variation has as many negative

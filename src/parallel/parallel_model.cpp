@@ -70,7 +70,7 @@ void ParallelModel::complete(const ParallelReport& report, ParallelWorkspace& wo
   // Towards buckling an error of the loads grows as the compliance itself does.
   const auto softness = [](const Matrix6& C) { return C.topLeftCorner<3, 3>().norm(); };
   const double softened = std::max(1.0, softness(solution.compliance) / softness(solution.material_compliance));
-  solution.numerical_error = softened * (report.amplification * report.truncation + report.step + report.iteration) + 1e-14;
+  solution.numerical_error = softened * (report.truncation + report.step + report.iteration) + 1e-14;
   // A sum is finite only if all its terms are.
   if (!std::isfinite(solution.X_BP.p.sum() + solution.compliance.sum() + solution.material_compliance.sum()))
     solution.status = {SolveCode::kNotConverged, -1, 0.0};

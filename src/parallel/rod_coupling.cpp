@@ -61,10 +61,10 @@ bool RodCoupling::marchAll() {
   return true;
 }
 
-double RodCoupling::sweepAll(bool finish) {
+double RodCoupling::sweepAll() {
   double change = 0.0;
   for (HeldRod& rod : rods_) {
-    const Sweep sweep = rod.sweepOnce(finish);
+    const Sweep sweep = rod.sweepOnce();
     if (!sweep.sound) return kInfinity;
     change = std::max(change, sweep.change);
   }
@@ -107,6 +107,17 @@ void RodCoupling::assembleLengths() {
   length_inverse_ = of_lengths.inverse();
 }
 
+// First order: errors of the ends and imbalance that the changes would cause.
+double RodCoupling::findPrediction(const std::vector<double>& length_changes, const Wrench& wrench_change) {
+  Wrench imbalance = wrench_change;
+  for (size_t i = 0; i < rods_.size(); ++i) {
+    const HeldRod& rod = rods_[i];
+    errors_[i] = -length_changes[i] * rod.twistOfLength();
+    imbalance -= aboutP(length_changes[i] * rod.wrenchOfLength() + rod.stiffness() * errors_[i], leverOf(i));
+  }
+  return solveStep(Unknown::kPose, imbalance);
+}
+
 double RodCoupling::findStep(Unknown unknown) {
   Wrench imbalance = wrench + aboutP((Wrench() << scene_.platformWeight(), Vector3::Zero()).finished(), centre());
   for (size_t i = 0; i < rods_.size(); ++i) {
@@ -122,6 +133,10 @@ double RodCoupling::findStep(Unknown unknown) {
       length_step_[i] = -along.dot(linear(end)) / along.dot(linear(of_length));
     }
   }
+  return solveStep(unknown, imbalance);
+}
+
+double RodCoupling::solveStep(Unknown unknown, const Wrench& imbalance) {
   if (unknown == Unknown::kPose) {
     twist_step_ = compliance_ * imbalance;
     std::fill(length_step_.begin(), length_step_.end(), 0.0);
@@ -181,12 +196,6 @@ bool RodCoupling::rodsAreStable() const {
 double RodCoupling::largestTruncation() const {
   double largest = 0.0;
   for (const HeldRod& rod : rods_) largest = std::max(largest, rod.truncation());
-  return largest;
-}
-
-double RodCoupling::amplification() const {
-  double largest = 1.0;
-  for (const HeldRod& rod : rods_) largest = std::max(largest, rod.scaledStiffness());
   return largest;
 }
 

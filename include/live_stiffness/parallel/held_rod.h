@@ -25,10 +25,10 @@ class HeldRod {
   // Forgets shape and load: straight, as many elements as before.
   void placeStraight();
   // One pass over every element; `change` of the sweep is of its Cayley vectors, rad.
-  Sweep sweepOnce(bool finish);
+  Sweep sweepOnce();
   // The shape under the load, converged. False if it cannot be found.
   bool march();
-  // What the matrices below need, for the shape of the last finished sweep: columns to `goal`, relative. Returns what
+  // What the matrices below need, for the shape of the last sweep: columns to `goal`, relative. Returns what
   // the passes left, relative; infinity without success.
   double linearise(double goal);
   // Elements enough for the load of now, if fewer would not do. True if that changed them: march() and linearise() anew.
@@ -36,7 +36,7 @@ class HeldRod {
   // Twice the elements where the estimated error times `amplification` is above the accuracy. True as for choose().
   bool refine(double amplification);
 
-  // After a finished sweep, in B.
+  // After a sweep, in B.
   Pose X_BE() const { return X_BR_ * backbone_.X_BT; }
   Wrench endWrench() const;   // of the platform on the rod, at its end
   Wrench baseWrench() const;  // of the rest of the rod on the base, at the base
@@ -51,9 +51,8 @@ class HeldRod {
   // Material compliance of the rod about its end (10), base axes. Prepares the elements for stations.
   Matrix6 materialCompliance(double accuracy);
 
-  // A change of load as bending of the rod, rad; a stiffness of the end in these units.
+  // A change of load as bending of the rod, rad.
   double bendingOf(const Vector6& load) const;
-  double scaledStiffness() const;
   // With both ends held the rod is stable. Exact (see held_rod.cpp) after linearise().
   bool isStableHeld() const;
 

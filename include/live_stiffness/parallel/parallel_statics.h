@@ -10,9 +10,8 @@ struct ParallelReport {
   bool stable = false;         // tangent stiffness positive definite, and every rod stable with both ends held
   int iterations = 0;          // sweeps and converged shots over all rods, all attempts together
   double step = 0.0;           // size of the step that was left to make, rad
-  double truncation = 0.0;     // estimated relative error of discretisation of the worst rod
+  double truncation = 0.0;     // estimated relative error of discretisation
   double iteration = 0.0;      // estimated relative error of shape and columns, left by their last passes
-  double amplification = 1.0;  // of truncation in the loads of the rods
 };
 
 class ParallelStatics {
@@ -46,7 +45,7 @@ class ParallelStatics {
     Wrench wrench;
   };
   ParallelReport solve(const Goal& goal);
-  void setInputs(const Goal& goal);
+  void setInputs(const Goal& goal, const Wrench& last_wrench);
   bool quick(Unknown unknown, ParallelReport& report);
   bool newton(Unknown unknown, ParallelReport& report);
   template <class Set>

@@ -32,7 +32,7 @@ class RodCoupling {
 
   bool marchAll();
   // One pass over all rods. Returns the largest change, infinity if one is not sound.
-  double sweepAll(bool finish);
+  double sweepAll();
   // All rods and the platform; columns to `goal`. Returns what the passes left; infinity without success.
   double linearise(double goal);
   // After it, what kLengths needs besides. Six rods only.
@@ -41,6 +41,8 @@ class RodCoupling {
   // Newton's step at the shape of the last sweep, with the last linearisation. Returns its size: largest of bending by
   // the changes of load, motion over length and turn, rad; infinity if there is none.
   double findStep(Unknown unknown);
+  // The same in advance, from an equilibrium: for the changes of length (m) and of wrench about to be made.
+  double findPrediction(const std::vector<double>& length_changes, const Wrench& wrench_change);
   // Makes `share` of it.
   void makeStep(Unknown unknown, double share);
 
@@ -54,8 +56,6 @@ class RodCoupling {
   // The rods held by a fixed platform are stable.
   bool rodsAreStable() const;
   double largestTruncation() const;
-  // How much an error of a rod's end grows in its loads: its stiffest direction over its bending stiffness.
-  double amplification() const;
 
   // Pose, loads and lengths, to go back to. Slots 0 and 1.
   void save(int slot);
@@ -65,6 +65,7 @@ class RodCoupling {
   Pose targetOf(size_t i) const;
   Vector3 centre() const { return X_BP.R * scene_.platform_centre; }  // from P, base axes
   Vector3 leverOf(size_t i) const { return X_BP.R * scene_.rods[i].X_PE.p; }  // from P, base axes
+  double solveStep(Unknown unknown, const Wrench& imbalance);
   void addStiffness(size_t i, const Matrix6& K, Matrix6& sum) const;
 
   struct Snapshot {
