@@ -154,6 +154,12 @@ double HeldRod::linearise(double goal) {
   return stiffness_.allFinite() ? left : std::numeric_limits<double>::infinity();
 }
 
+bool HeldRod::relieve() {
+  constexpr double kMostAnElement = 1.6;  // of L sqrt(|n| c_bt); pi and more would be unstable, whatever holds its ends
+  const double load_number = length() * std::sqrt(softness_ * load_.head<3>().norm());
+  return load_number > kMostAnElement * backbone_.element_count[0] && choose();
+}
+
 bool HeldRod::choose() {
   DeadLoads now = loads();
   angular(now.tip) = Vector3::UnitX() * std::max(load_.tail<3>().norm(), end_moment_.norm());

@@ -74,6 +74,7 @@ bool ParallelStatics::newton(Unknown unknown, ParallelReport& report) {
   constexpr double kGoal = 1e-13, kStalled = 1e-8, kLargestStep = 1.5, kLeastShare = 1e-3;
   if (!coupling_.marchAll()) return false;
   for (int i = 0; i < kMaxSteps && report.iterations < kMaxIterations; ++i) {
+    if (coupling_.relieveAll() && !coupling_.marchAll()) return false;
     if (!linearise(unknown, report)) return false;
     report.step = coupling_.findStep(unknown);
     if (report.step <= kGoal) return true;
@@ -145,10 +146,7 @@ bool ParallelStatics::startCold(const Goal& goal, ParallelReport& report) {
   coupling_.placeStraight(start_lengths_);
   const bool attached = follow([&](double share) { coupling_.attached = share; }, Unknown::kFreeLengths, report);
   coupling_.attached = 1.0;
-  if (!attached) return false;
-  bool changed = false;
-  for (HeldRod& rod : coupling_.rods()) changed = rod.choose() || changed;
-  if (changed && !coupling_.marchAll()) return false;
+  if (!attached || (coupling_.chooseAll() && !coupling_.marchAll())) return false;
   coupling_.wrench = coupling_.wrenchOfRods();
   return followInputs(goal, report);
 }
@@ -159,7 +157,7 @@ bool ParallelStatics::finish(Unknown unknown, ParallelReport& report) {
   if (!linearise(unknown, report)) return false;
   for (int i = 0;; ++i) {
     report.truncation = kMisfit * coupling_.largestTruncation();
-    bool refined = false;
+    bool refined = coupling_.relieveAll();
     if (i < kMaxRefinements)
       for (HeldRod& rod : coupling_.rods()) refined = rod.refine(kMisfit) || refined;
     if (!refined) return coupling_.platformCompliance().allFinite();

@@ -61,6 +61,18 @@ bool RodCoupling::marchAll() {
   return true;
 }
 
+bool RodCoupling::chooseAll() {
+  bool changed = false;
+  for (HeldRod& rod : rods_) changed = rod.choose() || changed;
+  return changed;
+}
+
+bool RodCoupling::relieveAll() {
+  bool changed = false;
+  for (HeldRod& rod : rods_) changed = rod.relieve() || changed;
+  return changed;
+}
+
 double RodCoupling::sweepAll() {
   double change = 0.0;
   for (HeldRod& rod : rods_) {

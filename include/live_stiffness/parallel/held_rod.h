@@ -31,8 +31,10 @@ class HeldRod {
   // What the matrices below need, for the shape of the last sweep: columns to `goal`, relative. Returns what
   // the passes left, relative; infinity without success.
   double linearise(double goal);
-  // Elements enough for the load of now, if fewer would not do. True if that changed them: march() and linearise() anew.
+  // Stages and elements for the load of now. True if that changed them: march() and linearise() anew.
   bool choose();
+  // The same where those at hand carry too much of it.
+  bool relieve();
   // Twice the elements where the estimated error times `amplification` is above the accuracy. True as for choose().
   bool refine(double amplification);
 

@@ -30,7 +30,11 @@ class RodCoupling {
   const std::deque<HeldRod>& rods() const { return rods_; }
   void placeStraight(const std::vector<double>& lengths);
 
+  // Converged shapes of all rods. False if one cannot be found.
   bool marchAll();
+  // choose() or relieve() of all rods; true if that changed one.
+  bool chooseAll();
+  bool relieveAll();
   // One pass over all rods. Returns the largest change, infinity if one is not sound.
   double sweepAll();
   // All rods and the platform; columns to `goal`. Returns what the passes left; infinity without success.
