@@ -32,26 +32,30 @@ Matrix6 turned(const Matrix6& M, const Matrix3& R) {
 }
 
 // Moves the guess g along with changes of base moment and end force, by the columns held: see ElementPasses::follow.
+// On copies, which the compiler can put into vectors.
 void follow(ElementState& e, const double (&change)[6]) {
   constexpr int kLanes = kMaxStages + 1;
-  StageRow turn[3];
+  StageRow turn[3], g[3];
+  double R[9];
+  std::copy_n(e.R_start, 9, R);
+  std::copy_n(&e.g[0][0], 3 * kLanes, &g[0][0]);
   for (int i = 0; i < 3; ++i) {
     double start = 0.0;
     for (int k = 0; k < 6; ++k) start += change[k] * e.phi_start[k][i];
-    for (int v = 0; v < kLanes; ++v) turn[i][v] = -start;
-    for (int k = 0; k < 6; ++k)
-      for (int v = 0; v < kLanes; ++v) turn[i][v] += change[k] * e.phi[k][i][v];
+    for (int v = 0; v < kLanes; ++v)
+      turn[i][v] = change[0] * e.phi[0][i][v] + change[1] * e.phi[1][i][v] + change[2] * e.phi[2][i][v] +
+                   change[3] * e.phi[3][i][v] + change[4] * e.phi[4][i][v] + change[5] * e.phi[5][i][v] - start;
   }
-  const double(&R)[9] = e.R_start;
   for (int v = 0; v < kLanes; ++v) {
-    const double a = turn[0][v], b = turn[1][v], c = turn[2][v];
-    const double x = R[0] * a + R[3] * b + R[6] * c, y = R[1] * a + R[4] * b + R[7] * c,
-                 z = R[2] * a + R[5] * b + R[8] * c;
-    const double gx = e.g[0][v], gy = e.g[1][v], gz = e.g[2][v], half = 0.5 * (gx * x + gy * y + gz * z);
-    e.g[0][v] = gx + x - 0.5 * (gy * z - gz * y - half * gx);
-    e.g[1][v] = gy + y - 0.5 * (gz * x - gx * z - half * gy);
-    e.g[2][v] = gz + z - 0.5 * (gx * y - gy * x - half * gz);
+    const double x = R[0] * turn[0][v] + R[3] * turn[1][v] + R[6] * turn[2][v];
+    const double y = R[1] * turn[0][v] + R[4] * turn[1][v] + R[7] * turn[2][v];
+    const double z = R[2] * turn[0][v] + R[5] * turn[1][v] + R[8] * turn[2][v];
+    const double gx = g[0][v], gy = g[1][v], gz = g[2][v], half = 0.5 * (gx * x + gy * y + gz * z);
+    g[0][v] = gx + x - 0.5 * (gy * z - gz * y - half * gx);
+    g[1][v] = gy + y - 0.5 * (gz * x - gx * z - half * gy);
+    g[2][v] = gz + z - 0.5 * (gx * y - gy * x - half * gz);
   }
+  std::copy_n(&g[0][0], 3 * kLanes, &e.g[0][0]);
 }
 
 // Number of negative eigenvalues of a matrix whose three are real: Descartes' rule is exact then.
@@ -70,10 +74,11 @@ HeldRod::HeldRod(const ParallelRod& rod, const Vector3& gravity, double accuracy
     : X_BR_(rod.X_BR),
       gravity_(rod.X_BR.R.transpose() * gravity),
       linear_density_(rod.section.linearDensity()),
+      accuracy_(std::min(accuracy, kCoarsest)),
       scene_(sceneOf(rod)),
       chain_(scene_),
       backbone_(scene_, simd),
-      discretisation_(chain_, std::min(accuracy, kCoarsest), 0) {
+      discretisation_(chain_, accuracy_, 0) {
   backbone_.rest[0].c = SectionMoments(rod.section).complianceDensity(1.0);
   softness_ = backbone_.rest[0].c.bending_torsion.diagonal().maxCoeff();
   choose();
@@ -170,7 +175,12 @@ bool HeldRod::choose() {
 }
 
 bool HeldRod::refine(double amplification) {
-  if (!discretisation_.refine(amplification, backbone_)) return false;
+  const double excess = amplification * truncation_ / accuracy_;
+  if (!(excess > 1.0)) return false;
+  const int stages = backbone_.passes->stages, count = backbone_.element_count[0];
+  const double growth = std::min(2.0, std::pow(2.0 * excess, 0.5 / stages));  // the error is of order 2 stages
+  backbone_.element_count[0] = std::min(Backbone::kMaxElements, std::max(count + 1, static_cast<int>(std::ceil(count * growth))));
+  if (!backbone_.resize(stages)) return false;
   nodes_hold_guess_ = has_columns_ = false;
   prepare(chain_, loads(), backbone_);
   return true;

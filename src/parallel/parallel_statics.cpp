@@ -14,6 +14,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Misfits of rods load one another, which makes more of an error than in a rod alone: up to six times, measured over
 // the configurations of test/parallel.
 constexpr double kMisfit = 8.0;
+constexpr double kOnTheWay = 1e-3, kFinest = 1e-13;  // goals of Newton's method, rad
 constexpr int kPathSlot = 0, kStepSlot = 1;  // snapshots of the coupling
 
 }  // namespace
@@ -69,15 +70,15 @@ bool ParallelStatics::quick(Unknown unknown, ParallelReport& report) {
 
 // Damped Newton steps on converged shapes. A step is good if the next one, by the same matrices, is smaller: a test
 // that stiff directions do not drown.
-bool ParallelStatics::newton(Unknown unknown, ParallelReport& report) {
+bool ParallelStatics::newton(Unknown unknown, double goal, ParallelReport& report) {
   constexpr int kMaxSteps = 30;
-  constexpr double kGoal = 1e-13, kStalled = 1e-8, kLargestStep = 1.5, kLeastShare = 1e-3;
+  constexpr double kStalled = 1e-8, kLargestStep = 3.0, kLeastShare = 1e-3;
   if (!coupling_.marchAll()) return false;
   for (int i = 0; i < kMaxSteps && report.iterations < kMaxIterations; ++i) {
     if (coupling_.relieveAll() && !coupling_.marchAll()) return false;
     if (!linearise(unknown, report)) return false;
     report.step = coupling_.findStep(unknown);
-    if (report.step <= kGoal) return true;
+    if (report.step <= goal) return true;
     if (!std::isfinite(report.step)) return false;
     coupling_.save(kStepSlot);
     for (double share = std::min(1.0, kLargestStep / report.step);; share *= 0.5) {
@@ -107,7 +108,7 @@ bool ParallelStatics::follow(Set set, Unknown unknown, ParallelReport& report) {
     coupling_.save(kPathSlot);
     const double next = std::min(1.0, done + step);
     set(next);
-    if (newton(unknown, report)) {
+    if (newton(unknown, next < 1.0 ? kOnTheWay : kFinest, report)) {
       done = next;
       step *= 2.0;
       continue;
@@ -161,7 +162,7 @@ bool ParallelStatics::finish(Unknown unknown, ParallelReport& report) {
     if (i < kMaxRefinements)
       for (HeldRod& rod : coupling_.rods()) refined = rod.refine(kMisfit) || refined;
     if (!refined) return coupling_.platformCompliance().allFinite();
-    if (!newton(unknown, report)) return false;
+    if (!newton(unknown, kFinest, report)) return false;
   }
 }
 

@@ -35,7 +35,7 @@ class HeldRod {
   bool choose();
   // The same where those at hand carry too much of it.
   bool relieve();
-  // Twice the elements where the estimated error times `amplification` is above the accuracy. True as for choose().
+  // More elements where the estimated error times `amplification` is above the accuracy. True as for choose().
   bool refine(double amplification);
 
   // After a sweep, in B.
@@ -68,6 +68,7 @@ class HeldRod {
   Vector3 gravity_;        // axes of the rod's base
   double linear_density_;  // kg/m
   double softness_;        // c_bt, 1/(N m^2)
+  double accuracy_;        // of discretisation
   Scene scene_;            // the rod as a chain of one segment
   Chain chain_;
   Backbone backbone_;

@@ -47,7 +47,7 @@ class ParallelStatics {
   ParallelReport solve(const Goal& goal);
   void setInputs(const Goal& goal, const Wrench& last_wrench);
   bool quick(Unknown unknown, ParallelReport& report);
-  bool newton(Unknown unknown, ParallelReport& report);
+  bool newton(Unknown unknown, double goal, ParallelReport& report);
   template <class Set>
   bool follow(Set set, Unknown unknown, ParallelReport& report);
   bool followInputs(const Goal& goal, ParallelReport& report);
