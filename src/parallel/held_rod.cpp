@@ -141,7 +141,8 @@ double HeldRod::linearise(double goal) {
   load_of_end.leftCols<3>() *= 1.0 / L;
   Matrix6 stiffness;
   stiffness.topRows<3>() = load_of_end.topRows<3>();
-  stiffness.bottomRows<3>().noalias() = m.rightCols<3>() * load_of_end.topRows<3>() + m.leftCols<3>() * load_of_end.bottomRows<3>();
+  stiffness.bottomRows<3>().noalias() =
+      m.rightCols<3>() * load_of_end.topRows<3>() + m.leftCols<3>() * load_of_end.bottomRows<3>();
   const Matrix3& R = X_BR_.R;
   stiffness_ = turned(stiffness, R);
   load_of_twist_.leftCols<3>().noalias() = load_of_end.leftCols<3>() * R.transpose();
@@ -179,7 +180,8 @@ bool HeldRod::refine(double amplification) {
   if (!(excess > 1.0)) return false;
   const int stages = backbone_.passes->stages, count = backbone_.element_count[0];
   const double growth = std::min(2.0, std::pow(2.0 * excess, 0.5 / stages));  // the error is of order 2 stages
-  backbone_.element_count[0] = std::min(Backbone::kMaxElements, std::max(count + 1, static_cast<int>(std::ceil(count * growth))));
+  const int wanted = std::max(count + 1, static_cast<int>(std::ceil(count * growth)));
+  backbone_.element_count[0] = std::min(Backbone::kMaxElements, wanted);
   if (!backbone_.resize(stages)) return false;
   nodes_hold_guess_ = has_columns_ = false;
   prepare(chain_, loads(), backbone_);

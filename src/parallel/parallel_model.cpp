@@ -93,7 +93,8 @@ std::string ParallelModel::describe(const SolveStatus& status) const {
     case SolveCode::kOk:
       return "ok";
     case SolveCode::kInvalidInput:
-      if (status.index == -1) return value + " lengths given, but the scene has " + rods + " rods: give one length per rod";
+      if (status.index == -1)
+        return value + " lengths given, but the scene has " + rods + " rods: give one length per rod";
       if (status.index == -2) return "the scene has " + rods + " rods: lengths for a pose need exactly six";
       if (status.index == -3) return "the pose must be finite and its orientation a rotation";
       if (status.index >= scene_.rodCount()) return "the wrench must be finite";
@@ -102,8 +103,8 @@ std::string ParallelModel::describe(const SolveStatus& status) const {
     case SolveCode::kOutOfRange:
       break;
     case SolveCode::kNotConverged:
-      return "no equilibrium found within the bound on iterations: the lengths may not fit one another, or the loads be "
-             "too large";
+      return "no equilibrium found within the bound on iterations: the lengths may not fit one another, or the loads "
+             "be too large";
     case SolveCode::kUnstable:
       return "only an unstable equilibrium was found: a rod or the platform would buckle; lower the loads, or choose "
              "lengths that differ less";

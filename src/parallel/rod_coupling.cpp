@@ -28,7 +28,8 @@ Wrench aboutP(const Wrench& wrench, const Vector3& lever) {
 
 RodCoupling::RodCoupling(const ParallelScene& scene, double accuracy, Simd simd) : scene_(scene) {
   const size_t count = scene.rods.size();
-  for (const ParallelRod& rod : scene.rods) rods_.emplace_back(rod, scene.gravity.value_or(Vector3::Zero()), accuracy, simd);
+  const Vector3 gravity = scene.gravity.value_or(Vector3::Zero());
+  for (const ParallelRod& rod : scene.rods) rods_.emplace_back(rod, gravity, accuracy, simd);
   straight_lengths_.assign(count, 1.0);
   errors_.assign(count, Twist::Zero());
   load_step_.assign(count, Vector6::Zero());
@@ -166,7 +167,8 @@ double RodCoupling::solveStep(Unknown unknown, const Wrench& imbalance) {
     if (unknown == Unknown::kPose) end += atLever(twist_step_, leverOf(i));
     else end -= length_step_[i] * rod.twistOfLength();
     load_step_[i] = rod.loadOfTwist() * end;
-    size = std::max({size, rod.bendingOf(load_step_[i]), (linear(twist_step_).norm() + std::abs(length_step_[i])) / rod.length()});
+    const double motion = linear(twist_step_).norm() + std::abs(length_step_[i]);
+    size = std::max({size, rod.bendingOf(load_step_[i]), motion / rod.length()});
     if (!(load_step_[i].allFinite() && std::isfinite(length_step_[i]))) return kInfinity;
   }
   return size;

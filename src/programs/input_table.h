@@ -18,8 +18,8 @@ struct InputRow {
 
 class InputTable {
  public:
-  // Reads the header: `inputs` and, all or none, fx_n .. mz_nm, in any order. Throws ConfigurationError with every fault
-  // of the header.
+  // Reads the header: `inputs` and, all or none, fx_n .. mz_nm, in any order. Throws ConfigurationError with every
+  // fault of the header.
   InputTable(std::istream& input, std::vector<std::string> inputs);
 
   // The next row that is not blank; false at the end. A row with a fault is returned, with `fault` set.

@@ -19,8 +19,8 @@ struct ResultRow {
   std::vector<double> more;  // one for each of the further columns
 };
 
-// Reads and solves all rows; writes the table to standard output, faults with their line to standard error, and there also
-// the progress if only a person sees it. Rows that fail keep their columns, empty. Returns how many failed.
+// Reads and solves all rows; writes the table to standard output, faults with their line to standard error, and there
+// also the progress if only a person sees it. Rows that fail keep their columns, empty. Returns how many failed.
 long solveTable(InputTable& table, const std::vector<std::string>& further_columns,
                 const std::function<ResultRow(const InputRow&)>& solve);
 

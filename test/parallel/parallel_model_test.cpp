@@ -218,9 +218,10 @@ TEST(ParallelModel, IsAsAccurateAsAskedForWarmAndCold) {
         const ParallelSolution actual = model.solve(lengths, c.wrench, warm);
         const ParallelSolution expected = fine.solve(lengths, c.wrench, reference);
         ASSERT_TRUE(actual.status.ok() && expected.status.ok()) << c.name << i;
-        const double error = std::max({poseError(actual.X_BP, expected.X_BP, kLength),
-                                       complianceError(actual.compliance, expected.compliance, kLength),
-                                       complianceError(actual.material_compliance, expected.material_compliance, kLength)});
+        const double error =
+            std::max({poseError(actual.X_BP, expected.X_BP, kLength),
+                      complianceError(actual.compliance, expected.compliance, kLength),
+                      complianceError(actual.material_compliance, expected.material_compliance, kLength)});
         EXPECT_LT(error, 2.0 * accuracy) << c.name << " update " << i;
         EXPECT_LT(error, 10.0 * actual.numerical_error + 1e-11) << c.name << " update " << i;
         if (i % 20 == 0) {
@@ -243,7 +244,8 @@ TEST(ParallelStability, EndsAtEulersLoad) {
   const double euler = 4.0 * kPi * kPi * EI / (kLength * kLength);
   const ParallelModel model(frame, {});
   const auto push = [&](double share) {
-    return solveCold(model, std::vector<double>(4, kLength), (Wrench() << 0.0, 0.0, -share * euler, 0.0, 0.0, 0.0).finished());
+    const Wrench down = (Wrench() << 0.0, 0.0, -share * euler, 0.0, 0.0, 0.0).finished();
+    return solveCold(model, std::vector<double>(4, kLength), down);
   };
   const ParallelSolution free = push(0.0), below = push(0.98), above = push(1.02);
   ASSERT_TRUE(free.status.ok());
@@ -261,7 +263,8 @@ TEST(ParallelStability, SeesARodBuckleBetweenHeldEnds) {
   for (int i = 0; i < 4; ++i) {
     robot.rods[i].X_BR = robot.rods[i].X_PE = Pose();
     robot.rods[i].section.outer_radius = i == 0 ? 0.001 : 0.02;
-    if (i > 0) robot.rods[i].X_BR.p = robot.rods[i].X_PE.p = Vector3(0.1 * std::cos(2.1 * i), 0.1 * std::sin(2.1 * i), 0.0);
+    if (i == 0) continue;
+    robot.rods[i].X_BR.p = robot.rods[i].X_PE.p = 0.1 * Vector3(std::cos(2.1 * i), std::sin(2.1 * i), 0.0);
   }
   const double strain = std::pow(kPi * 0.001 / kLength, 2);
   const ParallelModel model(robot, {1e-7});

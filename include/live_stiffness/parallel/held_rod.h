@@ -1,6 +1,7 @@
 #pragma once
-// One rod of a parallel robot: clamped at the base, its end moved by a wrench of the platform. The same elements, sweeps
-// and columns as those of a serial robot, in the axes of the rod's base; only that here the end force is unknown, too.
+// One rod of a parallel robot: clamped at the base, its end moved by a wrench of the platform. The same elements,
+// sweeps and columns as those of a serial robot, in the axes of the rod's base; but the end force is unknown, too.
+// docs/derivation.md, section 9, has the equations.
 
 #include "live_stiffness/parallel/parallel_scene.h"
 #include "live_stiffness/rod/discretisation.h"

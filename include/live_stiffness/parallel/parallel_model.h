@@ -1,6 +1,6 @@
 #pragma once
-// The compliance model of a parallel continuum robot (Appendix E): rod lengths and platform wrench in, platform pose and
-// 6x6 compliance out; and the inverse, platform pose in and rod lengths out.
+// The compliance model of a parallel continuum robot (Appendix E): rod lengths and platform wrench in, platform pose
+// and 6x6 compliance out; and the inverse, platform pose in and rod lengths out.
 
 #include <memory>
 

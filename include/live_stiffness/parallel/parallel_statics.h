@@ -25,8 +25,8 @@ class ParallelStatics {
 
   // Solves for the platform pose under a dead wrench at P (base axes). lengths: positive, one a rod, m. Starts from the
   // last solution unless reset() was called: sweeps that mend shapes, loads and pose together, then damped Newton steps
-  // along the way from the last lengths and wrench. From nothing: rods that reach a guessed pose without axial force, and
-  // from their lengths and wrench along the way to those given; the equilibrium that this leads to is the answer.
+  // along the way from the last lengths and wrench. From nothing: rods that reach a guessed pose without axial force,
+  // and from their lengths and wrench along the way to those given; the equilibrium that this leads to is the answer.
   ParallelReport solveForPose(const std::vector<double>& lengths, const Wrench& wrench);
 
   // Solves for the lengths (read them from the rods) that hold the platform at X_BP. Six rods only.
