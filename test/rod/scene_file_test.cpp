@@ -135,7 +135,7 @@ wind: 3
       "chain[2]: must hold exactly one of segment, link (line 14)",
       "chain[2].joint: unknown key; known here: link, segment (line 14)",
       "tip.mass_kg = -1: must be >= 0 (line 15)",
-      "wind: unknown key; known here: chain, gravity_m_s2, tip (line 16)",
+      "wind: unknown key; known here: chain, gravity_m_s2, kind, tip (line 16)",
   }));
 }
 
