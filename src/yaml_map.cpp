@@ -104,4 +104,26 @@ void YamlMap::finish() {
   }
 }
 
+void readDocument(const std::string& yaml, FaultList& faults, const std::function<void(YamlMap&)>& read) {
+  try {
+    const std::vector<YAML::Node> documents = YAML::LoadAll(yaml);
+    if (documents.size() > 1) faults.add("holds " + std::to_string(documents.size()) + " YAML documents: must be one");
+    YamlMap map(documents.empty() ? YAML::Node() : documents.front(), "", faults);
+    read(map);
+  } catch (const YAML::Exception& error) {
+    const std::string line = error.mark.is_null() ? "" : " (line " + std::to_string(error.mark.line + 1) + ")";
+    faults.add("not YAML: " + error.msg + line);
+  }
+}
+
+bool isOfKind(YamlMap& map, const std::string& kind, const std::string& wanted, FaultList& faults) {
+  const std::string found = map.text("kind", "serial");
+  if (found == kind) return true;
+  const bool exists = found == "serial" || found == "parallel";
+  faults.add("kind = " + found + ": must be " + kind + " here, " + wanted +
+             (!exists ? "" : found == "parallel" ? "; parallel_solve reads parallel scenes"
+                                                 : "; stiffness_solve and the node read serial scenes"));
+  return false;
+}
+
 }  // namespace live_stiffness

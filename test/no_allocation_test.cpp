@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdlib>
 
+#include "parallel/parallel_cases.h"
 #include "support/random_source.h"
 #include "support/scenes.h"
 
@@ -123,6 +124,24 @@ TEST_F(NoAllocation, InAStation) {
   model.solve(pressures, Wrench::Zero(), workspace);
   model.station(workspace, 1, 0.3);
   EXPECT_EQ(g_allocations, 0);
+}
+
+TEST_F(NoAllocation, InAParallelRobot) {
+  const ParallelModel model(awkwardRobot(), {});
+  ParallelWorkspace workspace = model.makeWorkspace();
+  std::vector<double> lengths = unevenLengths();
+  const std::vector<double> hopeless{0.1, 3.0, 0.1, 3.0, 0.1, 3.0};
+  const Pose pose{Matrix3::Identity(), Vector3(0.02, 0.0, 0.4)};
+  bool good = true;
+  const Counting counting;
+  for (int i = 0; i < 5; ++i) {
+    lengths[i] += 1e-3;
+    good = model.solve(lengths, Wrench::Zero(), workspace).status.ok() && good;
+  }
+  good = model.solveForLengths(pose, Wrench::Zero(), workspace).status.ok() && good;
+  good = !model.solve(hopeless, Wrench::Zero(), workspace).status.ok() && good;
+  EXPECT_EQ(g_allocations, 0);
+  EXPECT_TRUE(good);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -47,5 +48,12 @@ class YamlMap {
   FaultList& faults_;
   std::set<std::string> asked_;
 };
+
+// Hands the one document of a text to `read`. A text that is not YAML, or holds several documents, becomes a fault.
+void readDocument(const std::string& yaml, FaultList& faults, const std::function<void(YamlMap&)>& read);
+
+// True if the key `kind` of a scene is the one that a loader reads: "serial" (also if missing) or "parallel". Else a
+// fault, which says what this loader wants: then leave the other keys alone.
+bool isOfKind(YamlMap& map, const std::string& kind, const std::string& wanted, FaultList& faults);
 
 }  // namespace live_stiffness

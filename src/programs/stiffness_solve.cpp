@@ -1,15 +1,12 @@
 // stiffness_solve SCENE.yaml [options] < pressures.csv > results.csv: the model without a ROS master.
 
-#include <unistd.h>
-
 #include <boost/program_options.hpp>
 #include <chrono>
-#include <cstdio>
 #include <iostream>
 
 #include "live_stiffness/compliance/stiffness_model.h"
 #include "live_stiffness/rod/scene_file.h"
-#include "pressure_table.h"
+#include "result_table.h"
 
 namespace po = boost::program_options;
 using namespace live_stiffness;
@@ -20,66 +17,23 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kExitOk = 0, kExitRowFailed = 1, kExitUsage = 2;
 
-void printHeader() {
-  std::string header = "status,iterations,solve_us,x_m,y_m,z_m,qw,qx,qy,qz";
-  for (const char* matrix : {"c_", "material_"})
-    for (int i = 1; i <= 6; ++i)
-      for (int j = 1; j <= 6; ++j) header += "," + (matrix + std::to_string(i)) + std::to_string(j);
-  std::puts(header.c_str());
-}
-
-void printNumber(double value) { std::printf(",%.17g", value); }
-
-// A failed row keeps its columns, empty.
-void printRow(const StiffnessSolution& solution, double solve_us) {
-  std::fputs(codeName(solution.status.code), stdout);
-  if (!solution.status.ok()) {
-    for (int column = 0; column < 9 + 72; ++column) std::putchar(',');
-  } else {
-    std::printf(",%d,%.3f", solution.iterations, solve_us);
-    for (int i = 0; i < 3; ++i) printNumber(solution.X_BT.p[i]);
-    const Eigen::Quaterniond q(solution.X_BT.R);
-    for (double value : {q.w(), q.x(), q.y(), q.z()}) printNumber(value);
-    for (const Matrix6* matrix : {&solution.compliance, &solution.material_compliance})
-      for (int i = 0; i < 6; ++i)
-        for (int j = 0; j < 6; ++j) printNumber((*matrix)(i, j));
-  }
-  std::putchar('\n');
-}
-
 // Solves every row; rows do not depend on one another. Returns the number that failed.
-long solveAll(const StiffnessModel& model, PressureTable& table) {
+long solveAll(const StiffnessModel& model, InputTable& table) {
   StiffnessWorkspace workspace = model.makeWorkspace();
-  const bool shows_progress = isatty(STDERR_FILENO) && !isatty(STDOUT_FILENO);
-  auto last_progress = Clock::now();
-  long rows = 0, failed = 0;
-  PressureRow row;
-  while (table.next(row)) {
-    StiffnessSolution solution;
-    double solve_us = 0.0;
-    std::string fault = row.fault;
-    if (fault.empty()) {
-      workspace.reset();
-      const auto start = Clock::now();
-      solution = model.solve(row.pressures, row.tip_wrench, workspace);
-      solve_us = std::chrono::duration<double, std::micro>(Clock::now() - start).count();
-      if (!solution.status.ok()) fault = model.describe(solution.status);
-    } else {
-      solution.status.code = SolveCode::kInvalidInput;
-    }
-    printRow(solution, solve_us);
-    ++rows;
-    if (!fault.empty()) {
-      ++failed;
-      std::cerr << "line " << row.line << ": " << fault << '\n';
-    }
-    if (std::cin.rdbuf()->in_avail() <= 0) std::fflush(stdout);
-    if (shows_progress && Clock::now() - last_progress > std::chrono::seconds(1)) {
-      last_progress = Clock::now();
-      std::cerr << rows << " rows solved, " << failed << " failed\r" << std::flush;
-    }
-  }
-  return failed;
+  return solveTable(table, {}, [&](const InputRow& input) {
+    workspace.reset();
+    const auto start = Clock::now();
+    const StiffnessSolution solution = model.solve(input.values, input.wrench, workspace);
+    ResultRow row;
+    row.solve_us = std::chrono::duration<double, std::micro>(Clock::now() - start).count();
+    row.status = solution.status;
+    if (!row.status.ok()) row.fault = model.describe(row.status);
+    row.iterations = solution.iterations;
+    row.X = solution.X_BT;
+    row.compliance = solution.compliance;
+    row.material_compliance = solution.material_compliance;
+    return row;
+  });
 }
 
 }  // namespace
@@ -122,8 +76,7 @@ int main(int argc, char** argv) {
     model_options.accuracy = accuracy;
     const StiffnessModel model(loadSceneFile(scene_path), model_options);
     std::ios::sync_with_stdio(false);
-    PressureTable table(std::cin, model.scene().chamberCount());
-    printHeader();
+    InputTable table(std::cin, numberedColumns("p_", "_pa", model.scene().chamberCount()));
     return solveAll(model, table) > 0 ? kExitRowFailed : kExitOk;
   } catch (const std::exception& error) {
     std::cerr << "stiffness_solve: " << error.what() << "\nSee stiffness_solve --help.\n";

@@ -1,11 +1,9 @@
 #include "live_stiffness/rod/scene_file.h"
 
 #include <cmath>
-#include <fstream>
 #include <set>
-#include <sstream>
 
-#include "live_stiffness/yaml_map.h"
+#include "section/section_reader.h"
 
 namespace live_stiffness {
 namespace {
@@ -27,25 +25,10 @@ Chambers readChambers(YamlMap& map) {
   return chambers;
 }
 
-double readShearModulus(YamlMap& map, double youngs_modulus) {
-  const bool has_ratio = map.has("poissons_ratio");
-  const bool has_modulus = map.has("shear_modulus_pa");
-  if (has_ratio && has_modulus) map.fault("shear_modulus_pa", "give either this or poissons_ratio, not both");
-  if (has_modulus) {
-    if (has_ratio) map.number("poissons_ratio", Range::finite());
-    return map.number("shear_modulus_pa", Range::positive());
-  }
-  if (!has_ratio) map.fault("poissons_ratio or shear_modulus_pa is missing");
-  return youngs_modulus / (2.0 * (1.0 + map.number("poissons_ratio", {-1.0, 0.5, true, false}, std::nan(""))));
-}
-
 // Faults of a section whose single values are legal but do not fit together.
 void checkGeometry(const CrossSection& section, YamlMap& map) {
   const Chambers& chambers = section.chambers;
   const auto text = [](double length) { return numberText(length) + " m"; };
-  if (section.lumen_radius >= section.outer_radius)
-    map.fault("lumen_radius_m", text(section.lumen_radius) + " must be below outer_radius_m, " +
-                                    text(section.outer_radius));
   if (chambers.count() == 0) return;
   if (chambers.pitch_radius + chambers.radius > section.outer_radius)
     map.fault("chamber_pitch_radius_m", text(chambers.pitch_radius) + " puts the chambers through the outer wall: "
@@ -63,15 +46,9 @@ Segment readSegment(const YAML::Node& node, const std::string& path, int number,
   CrossSection& section = segment.section;
   segment.name = map.text("name", "s" + std::to_string(number));
   segment.length = map.number("length_m", Range::positive());
-  section.outer_radius = map.number("outer_radius_m", Range::positive());
-  section.lumen_radius = map.number("lumen_radius_m", Range::nonnegative(), 0.0);
+  readTube(map, section);
   section.chambers = readChambers(map);
-  section.youngs_modulus = map.number("youngs_modulus_pa", Range::positive());
-  section.shear_modulus = readShearModulus(map, section.youngs_modulus);
-  section.shear_correction = map.number("shear_correction", Range::positive(), 1.0);
-  // Without gravity mass has no effect, so it need not be known.
-  section.density = map.number("density_kg_m3", Range::nonnegative(),
-                               has_gravity ? std::nullopt : std::optional<double>(0.0));
+  readMaterial(map, has_gravity, section);
   checkGeometry(section, map);
   map.finish();
   return segment;
@@ -115,11 +92,8 @@ std::vector<Body> readChain(const YAML::Node& node, bool has_gravity, FaultList&
 Scene parseScene(const std::string& yaml, const std::string& name) {
   FaultList faults("scene " + name);
   Scene scene;
-  try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(yaml);
-    if (documents.size() > 1) faults.add("holds " + std::to_string(documents.size()) + " YAML documents: must be one");
-    const YAML::Node document = documents.empty() ? YAML::Node() : documents.front();
-    YamlMap map(document, "", faults);
+  readDocument(yaml, faults, [&](YamlMap& map) {
+    if (!isOfKind(map, "serial", "a chain of segments and links", faults)) return;
     if (map.has("gravity_m_s2")) scene.gravity = map.vector("gravity_m_s2");
     else map.child("gravity_m_s2");
     const YAML::Node chain = map.child("chain");
@@ -135,10 +109,7 @@ Scene parseScene(const std::string& yaml, const std::string& name) {
       tip_map.finish();
     }
     map.finish();
-  } catch (const YAML::Exception& error) {
-    const std::string line = error.mark.is_null() ? "" : " (line " + std::to_string(error.mark.line + 1) + ")";
-    faults.add("not YAML: " + error.msg + line);
-  }
+  });
   faults.throwIfAny();
   return scene;
 }

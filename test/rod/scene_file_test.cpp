@@ -74,6 +74,13 @@ TEST(SceneFile, TakesItsDefaults) {
   EXPECT_EQ(segmentOf(scene, 0).name, "s1");
 }
 
+TEST(SceneFile, IsRefusedIfOfAnotherKind) {
+  const std::string chain = chainOf("  - segment: " + kSegment + "\n");
+  EXPECT_EQ(faultsOf("kind: serial\n" + chain), "none");
+  EXPECT_TRUE(holds(faultsOf("kind: parallel\nrods: []\n"), {"kind = parallel: must be serial here", "parallel_solve"}));
+  EXPECT_TRUE(holds(faultsOf("kind: delta\n" + chain), {"kind = delta: must be serial here"}));
+}
+
 TEST(SceneFile, MixesSegmentsAndLinksFreely) {
   const std::string link = "  - link: {length_m: 0.006}\n", segment = "  - segment: " + kSegment + "\n";
   const Scene scene = parseScene(chainOf(link + link + segment + segment + link + segment + link), "test");
@@ -128,7 +135,7 @@ wind: 3
       "chain[2]: must hold exactly one of segment, link (line 14)",
       "chain[2].joint: unknown key; known here: link, segment (line 14)",
       "tip.mass_kg = -1: must be >= 0 (line 15)",
-      "wind: unknown key; known here: chain, gravity_m_s2, tip (line 16)",
+      "wind: unknown key; known here: chain, gravity_m_s2, kind, tip (line 16)",
   }));
 }
 

@@ -1,4 +1,4 @@
-#include "pressure_table.h"
+#include "input_table.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -29,45 +29,51 @@ std::vector<std::string> fields(const std::string& line) {
 
 }  // namespace
 
-PressureTable::PressureTable(std::istream& input, int chambers) : input_(input), chambers_(chambers) {
-  FaultList faults("header of the pressure table on standard input");
+std::vector<std::string> numberedColumns(const std::string& before, const std::string& after, int count) {
+  std::vector<std::string> names;
+  for (int k = 1; k <= count; ++k) names.push_back(before + std::to_string(k) + after);
+  return names;
+}
+
+InputTable::InputTable(std::istream& input, std::vector<std::string> inputs)
+    : input_(input), inputs_(static_cast<int>(inputs.size())) {
+  FaultList faults("header of the table on standard input");
   std::string line;
   while (std::getline(input_, line)) {
     ++line_;
     if (!trimmed(line).empty()) break;
   }
-  std::vector<std::string> wanted;
-  for (int k = 1; k <= chambers; ++k) wanted.push_back("p_" + std::to_string(k) + "_pa");
+  std::vector<std::string> wanted = inputs;
   wanted.insert(wanted.end(), std::begin(kWrenchColumns), std::end(kWrenchColumns));
   std::vector<int> seen(wanted.size(), 0);
   names_ = fields(line);
   for (const std::string& name : names_) {
     const auto place = std::find(wanted.begin(), wanted.end(), name);
     if (place == wanted.end()) {
-      faults.add("column " + (name.empty() ? "(empty)" : name) + ": unknown; known are p_1_pa to p_" +
-                 std::to_string(chambers) + "_pa and fx_n, fy_n, fz_n, mx_nm, my_nm, mz_nm");
+      faults.add("column " + (name.empty() ? "(empty)" : name) + ": unknown; known are " + inputs.front() + " to " +
+                 inputs.back() + " and fx_n, fy_n, fz_n, mx_nm, my_nm, mz_nm");
       continue;
     }
     slots_.push_back(static_cast<int>(place - wanted.begin()));
     if (++seen[slots_.back()] == 2) faults.add("column " + name + ": given more than once");
   }
-  const bool has_wrench = std::any_of(seen.begin() + chambers, seen.end(), [](int count) { return count > 0; });
+  const bool has_wrench = std::any_of(seen.begin() + inputs_, seen.end(), [](int count) { return count > 0; });
   for (size_t k = 0; k < wanted.size(); ++k)
-    if (seen[k] == 0 && (has_wrench || k < static_cast<size_t>(chambers)))
-      faults.add("column " + wanted[k] + " is missing" + (k < static_cast<size_t>(chambers) ? "" :
+    if (seen[k] == 0 && (has_wrench || k < static_cast<size_t>(inputs_)))
+      faults.add("column " + wanted[k] + " is missing" + (k < static_cast<size_t>(inputs_) ? "" :
                  ": give all six of the wrench or none"));
   faults.throwIfAny();
 }
 
-bool PressureTable::next(PressureRow& row) {
+bool InputTable::next(InputRow& row) {
   std::string line;
   do {
     if (!std::getline(input_, line)) return false;
     ++line_;
   } while (trimmed(line).empty());
-  row = PressureRow();
+  row = InputRow();
   row.line = line_;
-  row.pressures.setZero(chambers_);
+  row.values.setZero(inputs_);
   const std::vector<std::string> texts = fields(line);
   if (texts.size() != slots_.size()) {
     row.fault = std::to_string(texts.size()) + " fields, but the header has " + std::to_string(slots_.size());
@@ -80,8 +86,8 @@ bool PressureTable::next(PressureRow& row) {
       row.fault = names_[i] + " = " + (texts[i].empty() ? "(empty)" : texts[i]) + ": must be a number";
       return true;
     }
-    if (slots_[i] < chambers_) row.pressures[slots_[i]] = value;
-    else row.tip_wrench[slots_[i] - chambers_] = value;
+    if (slots_[i] < inputs_) row.values[slots_[i]] = value;
+    else row.wrench[slots_[i] - inputs_] = value;
   }
   return true;
 }

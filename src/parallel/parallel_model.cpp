@@ -1,0 +1,115 @@
+#include "live_stiffness/parallel/parallel_model.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace live_stiffness {
+namespace {
+
+constexpr Range kLengths{1e-4, 1e3};  // m
+
+}  // namespace
+
+ParallelModel::ParallelModel(ParallelScene scene, ParallelOptions options)
+    : scene_(std::move(scene)), options_(options) {
+  FaultList faults("parallel model");
+  if (scene_.rods.empty()) faults.add("rods: must hold at least one rod");
+  faults.check("accuracy", options_.accuracy, {1e-13, 1e-2});
+  faults.throwIfAny();
+}
+
+ParallelSolution ParallelModel::solve(const std::vector<double>& lengths, const Wrench& wrench,
+                                      ParallelWorkspace& workspace) const {
+  ParallelSolution solution;
+  if (lengths.size() != scene_.rods.size()) {
+    solution.status = {SolveCode::kInvalidInput, -1, static_cast<double>(lengths.size())};
+    return solution;
+  }
+  for (size_t i = 0; i < lengths.size(); ++i)
+    if (!kLengths.contains(lengths[i])) {
+      solution.status = {SolveCode::kInvalidInput, static_cast<int>(i), lengths[i]};
+      return solution;
+    }
+  if (!wrench.allFinite()) {
+    solution.status = {SolveCode::kInvalidInput, scene_.rodCount(), std::nan("")};
+    return solution;
+  }
+  complete(workspace.statics_->solveForPose(lengths, wrench), workspace, solution);
+  return solution;
+}
+
+ParallelSolution ParallelModel::solveForLengths(const Pose& X_BP, const Wrench& wrench,
+                                                ParallelWorkspace& workspace) const {
+  ParallelSolution solution;
+  const double skewness = (X_BP.R.transpose() * X_BP.R - Matrix3::Identity()).norm();
+  if (scene_.rodCount() != 6) solution.status = {SolveCode::kInvalidInput, -2, static_cast<double>(scene_.rodCount())};
+  else if (!(skewness < 1e-6) || !X_BP.p.allFinite() || !(X_BP.R.determinant() > 0.0))
+    solution.status = {SolveCode::kInvalidInput, -3, skewness};
+  else if (!wrench.allFinite()) solution.status = {SolveCode::kInvalidInput, scene_.rodCount(), std::nan("")};
+  if (!solution.status.ok()) return solution;
+  complete(workspace.statics_->solveForLengths(X_BP, wrench), workspace, solution);
+  return solution;
+}
+
+void ParallelModel::complete(const ParallelReport& report, ParallelWorkspace& workspace,
+                             ParallelSolution& solution) const {
+  solution.iterations = report.iterations;
+  if (!report.converged) {
+    solution.status = {SolveCode::kNotConverged, -1, report.step};
+    return;
+  }
+  if (!report.stable) {
+    solution.status = {SolveCode::kUnstable, -1, 0.0};
+    return;
+  }
+  RodCoupling& coupling = workspace.statics_->coupling();
+  solution.X_BP = coupling.X_BP;
+  solution.compliance = coupling.platformCompliance();
+  solution.material_compliance = coupling.materialStiffness(options_.accuracy).inverse();
+  // Towards buckling an error of the loads grows as the compliance itself does.
+  const auto softness = [](const Matrix6& C) { return C.topLeftCorner<3, 3>().norm(); };
+  const double softened = std::max(1.0, softness(solution.compliance) / softness(solution.material_compliance));
+  solution.numerical_error = softened * (report.truncation + report.step + report.iteration) + 1e-14;
+  // A sum is finite only if all its terms are.
+  if (!std::isfinite(solution.X_BP.p.sum() + solution.compliance.sum() + solution.material_compliance.sum()))
+    solution.status = {SolveCode::kNotConverged, -1, 0.0};
+}
+
+void ParallelModel::stations(const ParallelWorkspace& workspace, int rod, const std::vector<double>& fractions,
+                             std::vector<Pose>& out) const {
+  const HeldRod& held = workspace.rods()[rod];
+  out.resize(fractions.size());
+  Station station;
+  for (size_t i = 0; i < fractions.size(); ++i) {
+    stationsAt(held.backbone(), 0, &fractions[i], 1, options_.accuracy, true, &station);
+    out[i] = held.X_BR() * station.X_BS;
+  }
+}
+
+std::string ParallelModel::describe(const SolveStatus& status) const {
+  const std::string value = numberText(status.value), rods = std::to_string(scene_.rodCount());
+  switch (status.code) {
+    case SolveCode::kOk:
+      return "ok";
+    case SolveCode::kInvalidInput:
+      if (status.index == -1)
+        return value + " lengths given, but the scene has " + rods + " rods: give one length per rod";
+      if (status.index == -2) return "the scene has " + rods + " rods: lengths for a pose need exactly six";
+      if (status.index == -3) return "the pose must be finite and its orientation a rotation";
+      if (status.index >= scene_.rodCount()) return "the wrench must be finite";
+      return "length of rod " + std::to_string(status.index + 1) + " is " + value + " m: must be " + kLengths.text() +
+             " m; is it in another unit?";
+    case SolveCode::kOutOfRange:
+      break;
+    case SolveCode::kNotConverged:
+      return "no equilibrium found within the bound on iterations: the lengths may not fit one another, or the loads "
+             "be too large";
+    case SolveCode::kUnstable:
+      return "only an unstable equilibrium was found: a rod or the platform would buckle; lower the loads, or choose "
+             "lengths that differ less";
+  }
+  return "unknown status";
+}
+
+}  // namespace live_stiffness

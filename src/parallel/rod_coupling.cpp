@@ -1,0 +1,234 @@
+#include "live_stiffness/parallel/rod_coupling.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace live_stiffness {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// A twist of P as one of the point at `lever` from it.
+Twist atLever(const Twist& twist, const Vector3& lever) {
+  Twist result = twist;
+  linear(result) += angular(twist).cross(lever);
+  return result;
+}
+
+// A wrench at `lever` from P as one about P.
+Wrench aboutP(const Wrench& wrench, const Vector3& lever) {
+  Wrench result = wrench;
+  angular(result) += lever.cross(linear(wrench));
+  return result;
+}
+
+}  // namespace
+
+RodCoupling::RodCoupling(const ParallelScene& scene, double accuracy, Simd simd) : scene_(scene) {
+  const size_t count = scene.rods.size();
+  const Vector3 gravity = scene.gravity.value_or(Vector3::Zero());
+  for (const ParallelRod& rod : scene.rods) rods_.emplace_back(rod, gravity, accuracy, simd);
+  straight_lengths_.assign(count, 1.0);
+  errors_.assign(count, Twist::Zero());
+  load_step_.assign(count, Vector6::Zero());
+  length_step_.assign(count, 0.0);
+  for (Snapshot& snapshot : snapshots_) {
+    snapshot.loads.assign(count, Vector6::Zero());
+    snapshot.lengths.assign(count, 0.0);
+  }
+}
+
+void RodCoupling::placeStraight(const std::vector<double>& lengths) {
+  for (size_t i = 0; i < rods_.size(); ++i) {
+    straight_lengths_[i] = lengths[i];
+    rods_[i].placeStraight();
+    rods_[i].setLength(lengths[i]);
+  }
+}
+
+Pose RodCoupling::targetOf(size_t i) const {
+  const Pose place = X_BP * scene_.rods[i].X_PE;
+  if (attached >= 1.0) return place;
+  const Pose straight = scene_.rods[i].X_BR * Pose{Matrix3::Identity(), straight_lengths_[i] * Vector3::UnitZ()};
+  return {expSo3(attached * logSo3(place.R * straight.R.transpose())) * straight.R,
+          straight.p + attached * (place.p - straight.p)};
+}
+
+bool RodCoupling::marchAll() {
+  for (HeldRod& rod : rods_)
+    if (!rod.march()) return false;
+  return true;
+}
+
+bool RodCoupling::chooseAll() {
+  bool changed = false;
+  for (HeldRod& rod : rods_) changed = rod.choose() || changed;
+  return changed;
+}
+
+bool RodCoupling::relieveAll() {
+  bool changed = false;
+  for (HeldRod& rod : rods_) changed = rod.relieve() || changed;
+  return changed;
+}
+
+double RodCoupling::sweepAll() {
+  double change = 0.0;
+  for (HeldRod& rod : rods_) {
+    const Sweep sweep = rod.sweepOnce();
+    if (!sweep.sound) return kInfinity;
+    change = std::max(change, sweep.change);
+  }
+  return change;
+}
+
+// sum += H^T K H.
+void RodCoupling::addStiffness(size_t i, const Matrix6& K, Matrix6& sum) const {
+  const Matrix3 lever_hat = hat(leverOf(i));
+  Matrix6 right = K;  // K H
+  right.rightCols<3>().noalias() -= K.leftCols<3>() * lever_hat;
+  sum.topRows<3>() += right.topRows<3>();
+  sum.bottomRows<3>() += right.bottomRows<3>();
+  sum.bottomRows<3>().noalias() += lever_hat * right.topRows<3>();
+}
+
+double RodCoupling::linearise(double goal) {
+  double left = 0.0;
+  for (HeldRod& rod : rods_) {
+    left = std::max(left, rod.linearise(goal));
+    if (!std::isfinite(left)) return kInfinity;
+  }
+  stiffness_.setZero();
+  for (size_t i = 0; i < rods_.size(); ++i) {
+    addStiffness(i, rods_[i].stiffness(), stiffness_);
+    // The force at the rod's end moves along with it.
+    stiffness_.bottomRightCorner<3, 3>() += hat(linear(rods_[i].endWrench())) * hat(leverOf(i));
+  }
+  stiffness_.bottomRightCorner<3, 3>() -= hat(scene_.platformWeight()) * hat(centre());
+  compliance_ = stiffness_.inverse();
+  return left;
+}
+
+void RodCoupling::assembleLengths() {
+  Matrix6 of_lengths;
+  for (size_t i = 0; i < 6; ++i) {
+    const HeldRod& rod = rods_[i];
+    of_lengths.col(i) = aboutP(rod.wrenchOfLength() - rod.stiffness() * rod.twistOfLength(), leverOf(i));
+  }
+  length_inverse_ = of_lengths.inverse();
+}
+
+// First order: errors of the ends and imbalance that the changes would cause.
+double RodCoupling::findPrediction(const std::vector<double>& length_changes, const Wrench& wrench_change) {
+  Wrench imbalance = wrench_change;
+  for (size_t i = 0; i < rods_.size(); ++i) {
+    const HeldRod& rod = rods_[i];
+    errors_[i] = -length_changes[i] * rod.twistOfLength();
+    imbalance -= aboutP(length_changes[i] * rod.wrenchOfLength() + rod.stiffness() * errors_[i], leverOf(i));
+  }
+  return solveStep(Unknown::kPose, imbalance);
+}
+
+double RodCoupling::findStep(Unknown unknown) {
+  Wrench imbalance = wrench + aboutP((Wrench() << scene_.platformWeight(), Vector3::Zero()).finished(), centre());
+  for (size_t i = 0; i < rods_.size(); ++i) {
+    const HeldRod& rod = rods_[i];
+    const Pose X_BE = rod.X_BE(), target = targetOf(i);
+    linear(errors_[i]) = target.p - X_BE.p;
+    angular(errors_[i]) = logSo3(target.R * X_BE.R.transpose());
+    const Wrench end = rod.endWrench() + rod.stiffness() * errors_[i];
+    imbalance -= aboutP(end, leverOf(i));
+    if (unknown == Unknown::kFreeLengths) {
+      const Vector3 along = X_BE.R.col(2);
+      const Wrench of_length = rod.wrenchOfLength() - rod.stiffness() * rod.twistOfLength();
+      length_step_[i] = -along.dot(linear(end)) / along.dot(linear(of_length));
+    }
+  }
+  return solveStep(unknown, imbalance);
+}
+
+double RodCoupling::solveStep(Unknown unknown, const Wrench& imbalance) {
+  if (unknown == Unknown::kPose) {
+    twist_step_ = compliance_ * imbalance;
+    std::fill(length_step_.begin(), length_step_.end(), 0.0);
+  } else {
+    twist_step_.setZero();
+    if (unknown == Unknown::kLengths) {
+      const Vector6 step = length_inverse_ * imbalance;
+      std::copy_n(step.data(), 6, length_step_.begin());
+    }
+  }
+  double size = angular(twist_step_).norm();
+  for (size_t i = 0; i < rods_.size(); ++i) {
+    const HeldRod& rod = rods_[i];
+    Twist end = errors_[i];
+    if (unknown == Unknown::kPose) end += atLever(twist_step_, leverOf(i));
+    else end -= length_step_[i] * rod.twistOfLength();
+    load_step_[i] = rod.loadOfTwist() * end;
+    const double motion = linear(twist_step_).norm() + std::abs(length_step_[i]);
+    size = std::max({size, rod.bendingOf(load_step_[i]), motion / rod.length()});
+    if (!(load_step_[i].allFinite() && std::isfinite(length_step_[i]))) return kInfinity;
+  }
+  return size;
+}
+
+void RodCoupling::makeStep(Unknown unknown, double share) {
+  if (unknown == Unknown::kPose) {
+    X_BP.p += share * linear(twist_step_);
+    X_BP.R = expSo3(share * angular(twist_step_)) * X_BP.R;
+  }
+  for (size_t i = 0; i < rods_.size(); ++i) {
+    if (unknown != Unknown::kPose) {
+      const double least = 0.5 * rods_[i].length();  // never through zero
+      rods_[i].setLength(std::max(least, rods_[i].length() + share * length_step_[i]));
+    }
+    rods_[i].changeLoad(share * load_step_[i]);
+  }
+}
+
+Wrench RodCoupling::wrenchOfRods() const {
+  Wrench sum = -aboutP((Wrench() << scene_.platformWeight(), Vector3::Zero()).finished(), centre());
+  for (size_t i = 0; i < rods_.size(); ++i) sum += aboutP(rods_[i].endWrench(), leverOf(i));
+  return sum;
+}
+
+Matrix6 RodCoupling::materialStiffness(double accuracy) {
+  Matrix6 sum = Matrix6::Zero();
+  for (size_t i = 0; i < rods_.size(); ++i) {
+    const Matrix6 K = rods_[i].materialCompliance(accuracy).inverse();
+    addStiffness(i, K, sum);
+  }
+  return sum;
+}
+
+bool RodCoupling::rodsAreStable() const {
+  return std::all_of(rods_.begin(), rods_.end(), [](const HeldRod& rod) { return rod.isStableHeld(); });
+}
+
+double RodCoupling::largestTruncation() const {
+  double largest = 0.0;
+  for (const HeldRod& rod : rods_) largest = std::max(largest, rod.truncation());
+  return largest;
+}
+
+void RodCoupling::save(int slot) {
+  Snapshot& snapshot = snapshots_[slot];
+  snapshot.X_BP = X_BP;
+  for (size_t i = 0; i < rods_.size(); ++i) {
+    snapshot.loads[i] = rods_[i].load();
+    snapshot.lengths[i] = rods_[i].length();
+  }
+}
+
+void RodCoupling::restore(int slot) {
+  const Snapshot& snapshot = snapshots_[slot];
+  X_BP = snapshot.X_BP;
+  for (size_t i = 0; i < rods_.size(); ++i) {
+    rods_[i].setLength(snapshot.lengths[i]);
+    rods_[i].setLoad(snapshot.loads[i]);
+  }
+}
+
+}  // namespace live_stiffness

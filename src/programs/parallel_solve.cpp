@@ -1,0 +1,98 @@
+// parallel_solve SCENE.yaml [options] < lengths.csv > results.csv: a parallel continuum robot without a ROS master.
+
+#include <boost/program_options.hpp>
+#include <chrono>
+#include <iostream>
+
+#include "live_stiffness/parallel/parallel_model.h"
+#include "live_stiffness/parallel/parallel_scene_file.h"
+#include "result_table.h"
+
+namespace po = boost::program_options;
+using namespace live_stiffness;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kExitOk = 0, kExitRowFailed = 1, kExitUsage = 2;
+
+ResultRow resultOf(const ParallelModel& model, const ParallelSolution& solution, Clock::time_point start) {
+  ResultRow row;
+  row.solve_us = std::chrono::duration<double, std::micro>(Clock::now() - start).count();
+  row.status = solution.status;
+  if (!row.status.ok()) row.fault = model.describe(row.status);
+  row.iterations = solution.iterations;
+  row.X = solution.X_BP;
+  row.compliance = solution.compliance;
+  row.material_compliance = solution.material_compliance;
+  return row;
+}
+
+// Rows do not depend on one another. Both return the number that failed.
+long solveLengths(const ParallelModel& model) {
+  InputTable table(std::cin, numberedColumns("l_", "_m", model.scene().rodCount()));
+  ParallelWorkspace workspace = model.makeWorkspace();
+  return solveTable(table, {}, [&](const InputRow& input) {
+    const std::vector<double> lengths(input.values.data(), input.values.data() + input.values.size());
+    workspace.reset();
+    const auto start = Clock::now();
+    return resultOf(model, model.solve(lengths, input.wrench, workspace), start);
+  });
+}
+
+long solvePoses(const ParallelModel& model) {
+  InputTable table(std::cin, {"x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"});
+  ParallelWorkspace workspace = model.makeWorkspace();
+  return solveTable(table, numberedColumns("l_", "_m", model.scene().rodCount()), [&](const InputRow& input) {
+    const auto& v = input.values;
+    const Eigen::Quaterniond q(v[3], v[4], v[5], v[6]);
+    Pose X_BP{q.normalized().toRotationMatrix(), v.head<3>()};
+    if (!(std::abs(q.norm() - 1.0) < 1e-3)) X_BP.R.setConstant(std::nan(""));  // refused as no rotation
+    workspace.reset();
+    const auto start = Clock::now();
+    ResultRow row = resultOf(model, model.solveForLengths(X_BP, input.wrench, workspace), start);
+    for (const HeldRod& rod : workspace.rods()) row.more.push_back(rod.length());
+    return row;
+  });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::string scene_path;
+  ParallelOptions parallel_options;
+  double accuracy = parallel_options.accuracy;
+  po::options_description options("Options");
+  options.add_options()
+    ("help,h", "print this and exit")
+    ("inverse", "read platform poses and find the lengths of six rods")
+    ("accuracy", po::value(&accuracy)->default_value(accuracy, "1e-9"), "relative, of pose and compliance")
+    ("scene", po::value(&scene_path)->required(), "scene file of kind parallel");
+  po::positional_options_description positional;
+  positional.add("scene", 1);
+  try {
+    po::variables_map values;
+    po::store(po::command_line_parser(argc, argv).options(options).positional(positional).run(), values);
+    if (values.count("help")) {
+      std::cout << "parallel_solve SCENE.yaml [options] < lengths.csv > results.csv\n\n"
+                   "In:  header l_1_m,...,l_N_m (length of each rod between base and platform, in the order of the\n"
+                   "     scene) and optionally fx_n,fy_n,fz_n,mx_nm,my_nm,mz_nm (dead wrench on the platform at its\n"
+                   "     origin, base axes). With --inverse x_m,y_m,z_m,qw,qx,qy,qz instead of the lengths.\n"
+                   "Out: status,iterations,solve_us, platform position and quaternion, then the tangent (c_ij) and the\n"
+                   "     material compliance by (53) (material_ij) of the platform's origin, row by row, SI, linear part\n"
+                   "     first, base axes. With --inverse then l_1_m,...,l_N_m.\n"
+                   "Exit status: 0 all rows solved, 1 some failed (see standard error), 2 nothing could be done.\n\n"
+                << options;
+      return kExitOk;
+    }
+    po::notify(values);
+    parallel_options.accuracy = accuracy;
+    const ParallelModel model(loadParallelSceneFile(scene_path), parallel_options);
+    std::ios::sync_with_stdio(false);
+    return (values.count("inverse") ? solvePoses(model) : solveLengths(model)) > 0 ? kExitRowFailed : kExitOk;
+  } catch (const std::exception& error) {
+    std::cerr << "parallel_solve: " << error.what() << "\nSee parallel_solve --help.\n";
+    return kExitUsage;
+  }
+}
