@@ -18,33 +18,7 @@ constexpr double kResidualAccepted = 1e-8;  // rad, when rounding stops it short
 constexpr double kRoughColumns = 1e-2;      // relative error, enough for sweeps to converge
 constexpr double kFineColumns = 1e-12;      // for Newton steps where the residual is nearly singular, or huge
 constexpr double kMostAmplification = 1e6;
-
-// Compliance, [df; dM] to the twist of T, from the columns for [m0; f] with m0 = X df + Y dM: C = (Q + T^T G) T with
-// T = [X, Y; I, 0], Q the columns' twists and G their defect, if it is to be corrected. By hand, as Eigen takes thrice as long.
-void combine(const ElementColumns& columns, bool correct, const Matrix3& X, const Matrix3& Y, Matrix6& C) {
-  double H[6][6];  // column by column
-  for (int j = 0; j < 6; ++j)
-    for (int i = 0; i < 3; ++i) H[j][i] = columns.p[j][i], H[j][3 + i] = columns.phi[j][i];
-  if (correct) {
-    double T_transposed[3][6];  // its first three columns: [X^T; Y^T]
-    for (int k = 0; k < 3; ++k)
-      for (int i = 0; i < 3; ++i) T_transposed[k][i] = X(k, i), T_transposed[k][3 + i] = Y(k, i);
-    for (int j = 0; j < 6; ++j) {
-      const double g[3] = {columns.defect[0][j], columns.defect[1][j], columns.defect[2][j]};
-      for (int i = 0; i < 6; ++i)
-        H[j][i] += T_transposed[0][i] * g[0] + T_transposed[1][i] * g[1] + T_transposed[2][i] * g[2];
-      for (int i = 0; i < 3; ++i) H[j][i] += columns.defect[3 + i][j];
-    }
-  }
-  for (int j = 0; j < 3; ++j) {
-    double force[6], moment[6];
-    for (int i = 0; i < 6; ++i) {
-      force[i] = H[3 + j][i] + H[0][i] * X(0, j) + H[1][i] * X(1, j) + H[2][i] * X(2, j);
-      moment[i] = H[0][i] * Y(0, j) + H[1][i] * Y(1, j) + H[2][i] * Y(2, j);
-    }
-    for (int i = 0; i < 6; ++i) C(i, j) = force[i], C(i, 3 + j) = moment[i];
-  }
-}
+constexpr double kSlowestRate = 0.2;        // at which sweeps may be counted on to converge
 
 // All pivots of L D L^T of the symmetric part are positive, with `lifted` added to the diagonal of each block.
 bool isPositiveDefinite(const Matrix6& a, double lifted_linear, double lifted_angular) {
@@ -72,11 +46,12 @@ bool isPositiveDefinite(const Matrix6& a, double lifted_linear, double lifted_an
 }  // namespace
 
 StaticsSolver::StaticsSolver(const Scene& scene, double accuracy, int stages)
-    : chain_(scene), length_(scene.length()), accuracy_(accuracy), discretisation_(chain_, accuracy, stages) {}
+    : chain_(scene), length_(scene.length()), accuracy_(accuracy), discretisation_(chain_, accuracy, stages), rate_(kSlowestRate) {}
 
 void StaticsSolver::reset() {
   warm_ = has_columns_ = false;
   amplification_ = 1.0;
+  rate_ = kSlowestRate;
   discretisation_.reset();
 }
 
@@ -94,36 +69,42 @@ bool StaticsSolver::updateInverse(const DeadLoads& loads, double goal, Backbone&
 }
 
 // Sweeps of one pass an element, each followed by a step of the base moment with the kept inverse: shape and moment
-// converge together, linearly, by a factor of about ten a sweep. Without trouble it takes three to ten.
+// converge together, linearly, by a factor of about ten a sweep. Without trouble it takes one to ten.
 bool StaticsSolver::quick(const DeadLoads& loads, bool has_inverse, Backbone& backbone, StaticsReport& report) {
   constexpr int kMaxSweeps = 40, kSweepsBeforeInverse = 2;
-  constexpr double kSlowestRate = 0.2, kRounding = 1e-13;
+  constexpr double kRounding = 1e-13;
   const double goal = std::max(0.2 * accuracy_ / amplification_, 1e-15);
   if (!has_inverse && !warm_) residual_inverse_.setIdentity();  // right but for the load's own effect
-  double last = kInfinity, expected = kInfinity;
+  double last = kInfinity;
   int growing = 0;
+  ChainState chain = stateOf(chain_, loads, base_moment_, backbone);
+  SweepResult s;
   for (int i = 0; i < kMaxSweeps && report.iterations < kMaxIterations; ++i) {
-    const bool make_inverse = !has_inverse && i >= kSweepsBeforeInverse;
-    const bool finish = expected <= goal || make_inverse;
     ++report.iterations;
-    const Pass pass = !nodes_hold_guess_ ? Pass::kAnew : finish ? Pass::kFinish : Pass::kOnce;
-    const Sweep s = sweep(chain_, loads, base_moment_, pass, backbone);
+    backbone.passes->sweep(chain, nodes_hold_guess_ ? Pass::kOnce : Pass::kAnew, s);
     nodes_hold_guess_ = s.sound;
-    report.residual = bendingOf(s.residual);
-    const double error = std::max(s.change, report.residual);
+    const double error = std::max(s.change, bendingOf(Vector3(s.residual)));
     if (!s.sound || (growing += error > last) > 3) return false;
-    // The shape that a sweep finishes is the one it started from, so it is off by the change.
-    expected = error * (i == 0 ? 0.5 * kSlowestRate : std::min(kSlowestRate, error / last));
-    report.iteration = s.change;
-    const bool at_rounding = error <= kRounding && error >= 0.5 * last;
-    if (finish && has_inverse && (error <= goal || at_rounding)) return true;
-    if (error <= kRounding && error > 0.3 * last) expected = 0.0;
-    last = error;
-    if (make_inverse && !(has_inverse = updateInverse(loads, kRoughColumns, backbone))) return false;
-    const Vector3 step = -residual_inverse_ * s.residual;
+    if (!has_inverse && i >= kSweepsBeforeInverse) {
+      SweepResult unchanged;
+      backbone.passes->sweep(chain, Pass::kShape, unchanged);
+      if (!(has_inverse = updateInverse(loads, kRoughColumns, backbone))) return false;
+    }
+    const Vector3 step = -residual_inverse_ * Vector3(s.residual);
     base_moment_ += step;
-    if (!has_inverse) continue;
-    for (RodElement& element : backbone.elements) backbone.passes->follow(element.state, {step.x(), step.y(), step.z()});
+    for (int k = 0; k < 3; ++k) chain.base_moment[k] = base_moment_[k];
+    if (has_inverse) backbone.passes->follow_all(chain, {step.x(), step.y(), step.z()});
+    // A single sweep shows no rate: then that of the last solve with several counts.
+    if (i > 0) rate_ = std::min(kSlowestRate, error / last);
+    const bool at_rounding = error <= kRounding && error > 0.3 * last;
+    report.iteration = at_rounding ? error : rate_ * error;
+    last = error;
+    if (!has_inverse || (report.iteration > goal && !at_rounding)) continue;
+    backbone.passes->sweep(chain, Pass::kShape, s);
+    report.residual = bendingOf(Vector3(s.residual));
+    if (report.residual > goal && !at_rounding) continue;
+    backbone.setTip(s.R_tip, s.p_tip);
+    return true;
   }
   return false;
 }
@@ -202,7 +183,7 @@ void StaticsSolver::placeFresh(const DeadLoads& loads, Backbone& backbone) {
     }
     const int count = backbone.element_count[part.segment];
     for (int k = 0; k < count; ++k, ++element) {
-      Vector3 centre = element->p_start;
+      Vector3 centre = element->p_start();
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < table.nodes; ++j) centre[i] += table.b[j] * element->state.offset[i][j];
       base_moment_ += centre.cross(part.mass / count * loads.gravity);
@@ -211,10 +192,10 @@ void StaticsSolver::placeFresh(const DeadLoads& loads, Backbone& backbone) {
   }
 }
 
-void StaticsSolver::placeUnloaded(Backbone& backbone) {
+void StaticsSolver::prepareUnloaded(Backbone& backbone) {
   warm_ = has_columns_ = false;
   discretisation_.chooseUnloaded(backbone);
-  live_stiffness::placeUnloaded(chain_, backbone);
+  prepare(chain_, DeadLoads(), backbone);
 }
 
 // By the quickest way that works, whichever branch that leads to.
@@ -315,19 +296,19 @@ bool StaticsSolver::findTangent(const DeadLoads& loads, Backbone& backbone, Stat
   for (int attempt = 0; attempt < 2; ++attempt) {
     ElementColumns tip;
     const double error_goal = std::max(goal / (amplification_ * cancellation), 1e-16);
-    const double column_goal = self_adjoint ? std::sqrt(0.5 * error_goal / amplification_) : error_goal;
-    const double change = tipColumns(chain_, loads, !has_columns_, column_goal, backbone, tip);
+    const double column_goal = self_adjoint ? std::sqrt(2.0 * error_goal / amplification_) : error_goal;
+    const double change = tipColumns(chain_, loads, !has_columns_, column_goal, backbone, tip, self_adjoint);
     has_columns_ = std::isfinite(change);
     if (!has_columns_) return false;
-    const auto p = columnsOf(tip.p), m = columnsOf(tip.m);
-    residual_inverse_ = m.leftCols<3>().inverse();
-    // dm0 = A^-1 (dM - B df), from the residual's columns [A, B].
-    const Matrix3 m0_of_force = -residual_inverse_ * m.rightCols<3>();
-    combine(tip, self_adjoint, m0_of_force, residual_inverse_, tangent_);
+    const auto p = columnsOf(tip.p);
+    double inverse[9], compliance[36];
+    backbone.passes->tangent(tip, self_adjoint, inverse, compliance);
+    residual_inverse_ = Matrix3(inverse);
+    tangent_ = Matrix6(compliance);
     if (!std::isfinite(tangent_.sum())) return false;
     amplification_ = std::clamp(tangent_.diagonal().tail<3>().cwiseAbs().maxCoeff() / stiffest_, 1.0, kMostAmplification);
     cancellation = std::max(1.0, p.rightCols<3>().norm() / tangent_.topLeftCorner<3, 3>().norm());
-    const double left = (self_adjoint ? 2.0 * change * change * amplification_ : change) * cancellation;
+    const double left = (self_adjoint ? 0.5 * change * change * amplification_ : change) * cancellation;
     report.iteration = shape + left;
     report.truncation = discretisation_.truncation(cancellation, backbone);
     if (left * amplification_ <= goal) break;

@@ -42,8 +42,10 @@ class StaticsSolver {
   // a search along the loads, many times the cost of the solve; reset() gives the cold answer.
   StaticsReport solve(const DeadLoads& loads, Backbone& backbone);
 
-  // Shape without loads, in closed form.
-  void placeUnloaded(Backbone& backbone);
+  // Makes the backbone ready for placeUnloaded() of compliance/material_compliance.h, and forgets the last solution.
+  void prepareUnloaded(Backbone& backbone);
+
+  const Chain& chain() const { return chain_; }
 
   // Compliance of T under a dead wrench at T (base axes), by the derivative of the loaded equilibrium: tangent, 6x6.
   const Matrix6& tangentCompliance() const { return tangent_; }
@@ -77,6 +79,7 @@ class StaticsSolver {
   double softness_ = 0.0;      // L c_bt of the softest segment, rad / (N m)
   double stiffest_ = 0.0;      // rotation of the tip by a unit moment about its stiffest axis, unloaded, rad / (N m)
   double amplification_ = 1.0; // see StaticsReport, of the last solve
+  double rate_;                // at which the last sweeps converged
   bool warm_ = false;          // base moment and inverse are those of a solution
   bool has_columns_ = false;   // the elements hold columns of a shape nearby
   bool nodes_hold_guess_ = false;
