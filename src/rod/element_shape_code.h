@@ -146,8 +146,29 @@ struct Shape : Collocation<kStages> {
     }
   }
 
-  static void predict(ElementState& e, const double (&turn)[3]) {
-    for (int v = 0; v < kVectors; ++v) store(e.g, v, load(e.g, v) + load(table().c, v) * splat(turn));
+  // Goes on by `steadiness` times the last change.
+  template <int n>
+  static LIVE_STIFFNESS_INLINE void extrapolate(double steadiness, StageRow (&now)[n], StageRow (&before)[n]) {
+    for (int k = 0; k < n; ++k)
+      for (int v = 0; v < kVectors; ++v) {
+        const Lanes x = load(now[k], v);
+        store(now[k], v, x + steadiness * (x - load(before[k], v)));
+        store(before[k], v, x);
+      }
+  }
+
+  static void predict(ElementState& e, const double (&turn)[3], double steadiness, bool with_columns) {
+    extrapolate(steadiness, e.g, e.g_before);
+    for (int i = 0; i < 3; ++i) {
+      const double more = turn[i] - steadiness * e.turn[i];
+      for (int v = 0; v < kVectors; ++v) store(e.g[i], v, load(e.g[i], v) + more * load(table().c, v));
+      e.turn[i] = turn[i];
+    }
+    if (!with_columns) return;
+    for (int k = 0; k < 6; ++k) {
+      extrapolate(steadiness, e.phi[k], e.phi_before[k]);
+      extrapolate(steadiness, e.phi_rate[k], e.phi_rate_before[k]);
+    }
   }
 
   static bool integrate(ElementState& e) {

@@ -1,5 +1,6 @@
 #include "live_stiffness/rod/shooting.h"
 
+#include <cmath>
 #include <limits>
 
 namespace live_stiffness {
@@ -20,7 +21,38 @@ ChainState stateOf(const Chain& chain, const DeadLoads& loads, const Vector3& ba
   return state;
 }
 
-void prepare(const Chain& chain, const DeadLoads& loads, Backbone& backbone) {
+namespace {
+
+// Change of an element's rest curvature that `rest` brings, as the turn between its ends, rad.
+Vector3 turnOf(const ElementState& e, double length, const RestState& rest) {
+  return length * rest.curvature - e.length * Vector3(e.rest_curvature);
+}
+
+// The multiple of the last change that is nearest to this one, if it is near.
+double steadinessOf(const Chain& chain, const Backbone& backbone) {
+  constexpr double kNear = 0.1, kMost = 2.0;
+  double along = 0.0, last = 0.0, now = 0.0;
+  auto element = backbone.elements.begin();
+  for (const Chain::Part& part : chain.parts) {
+    if (part.segment < 0) continue;
+    const RestState& rest = backbone.rest[part.segment];
+    const int count = backbone.element_count[part.segment];
+    for (int k = 0; k < count; ++k, ++element) {
+      const Vector3 turn = turnOf(element->state, rest.stretch * part.length / count, rest), before(element->state.turn);
+      along += turn.dot(before);
+      last += before.squaredNorm();
+      now += turn.squaredNorm();
+    }
+  }
+  const double steadiness = along / last;
+  const bool is_steady = now - steadiness * along <= kNear * kNear * now && std::abs(steadiness) <= kMost;  // false if NaN
+  return is_steady ? steadiness : 0.0;
+}
+
+}  // namespace
+
+double prepare(const Chain& chain, const DeadLoads& loads, Backbone& backbone, History history) {
+  const double steadiness = history == History::kNone ? 0.0 : steadinessOf(chain, backbone);
   auto element = backbone.elements.begin();
   for (const Chain::Part& part : chain.parts) {
     if (part.segment < 0) continue;
@@ -29,15 +61,15 @@ void prepare(const Chain& chain, const DeadLoads& loads, Backbone& backbone) {
     const double length = rest.stretch * part.length, own_length = length / count, density = part.mass / length;
     for (int k = 0; k < count; ++k, ++element) {
       ElementState& e = element->state;
-      double turn[3];
-      for (int i = 0; i < 3; ++i) turn[i] = own_length * rest.curvature[i] - e.length * e.rest_curvature[i];
-      backbone.passes->predict(e, turn);
+      const Vector3 turn = turnOf(e, own_length, rest);
+      backbone.passes->predict(e, {turn.x(), turn.y(), turn.z()}, steadiness, history == History::kColumns);
       e.length = own_length;
       e.start = k * own_length;
       element->setSection(rest);
       element->setLoads(density * loads.gravity);
     }
   }
+  return steadiness;
 }
 
 Sweep sweep(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, Pass pass, Backbone& backbone) {

@@ -50,6 +50,7 @@ StaticsSolver::StaticsSolver(const Scene& scene, double accuracy, int stages)
 
 void StaticsSolver::reset() {
   warm_ = has_columns_ = false;
+  solutions_ = 0;
   amplification_ = 1.0;
   rate_ = kSlowestRate;
   discretisation_.reset();
@@ -164,6 +165,7 @@ bool StaticsSolver::newton(const DeadLoads& loads, Backbone& backbone, int max_i
 void StaticsSolver::forgetGuesses(const DeadLoads& loads, Backbone& backbone) {
   prepare(chain_, loads, backbone);
   warm_ = has_columns_ = nodes_hold_guess_ = false;
+  solutions_ = 0;
 }
 
 // The unloaded shape, and the base moment that the loads would exert on it.
@@ -194,14 +196,25 @@ void StaticsSolver::placeFresh(const DeadLoads& loads, Backbone& backbone) {
 
 void StaticsSolver::prepareUnloaded(Backbone& backbone) {
   warm_ = has_columns_ = false;
+  solutions_ = 0;
   discretisation_.chooseUnloaded(backbone);
   prepare(chain_, DeadLoads(), backbone);
+}
+
+// A guess from the last solutions. Where one pass over the columns is enough as it is, to extrapolate them does not pay.
+void StaticsSolver::goOn(const DeadLoads& loads, Backbone& backbone) {
+  constexpr double kOnePass = 1e-4;
+  const History known = accuracy_ < kOnePass && has_columns_ ? History::kColumns : History::kShape;
+  const double steadiness = prepare(chain_, loads, backbone, solutions_ >= 2 ? known : History::kNone);
+  const Vector3 last = base_moment_;
+  base_moment_ += steadiness * (last - moment_before_);
+  moment_before_ = last;
 }
 
 // By the quickest way that works, whichever branch that leads to.
 bool StaticsSolver::findEquilibrium(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
   bool has_inverse = warm_ && has_columns_;
-  if (warm_) prepare(chain_, loads, backbone);
+  if (warm_) goOn(loads, backbone);
   else placeFresh(loads, backbone);
   while (true) {
     bool converged = quick(loads, has_inverse, backbone, report);
@@ -364,7 +377,10 @@ StaticsReport StaticsSolver::solve(const DeadLoads& loads, Backbone& backbone) {
       stiffest_ += rest.c.bending_torsion.diagonal().minCoeff() * length;
     }
   // Other elements hold no guess, but the base moment stays what it was.
-  if (discretisation_.choose(loads, backbone)) has_columns_ = nodes_hold_guess_ = false;
+  if (discretisation_.choose(loads, backbone)) {
+    has_columns_ = nodes_hold_guess_ = false;
+    solutions_ = 0;
+  }
   // Newton's method takes any equilibrium, if it finds one. So where there may be several it is trusted near a stable
   // one only.
   if (warm_ || !mayBuckle(loads, backbone)) {
@@ -378,6 +394,7 @@ StaticsReport StaticsSolver::solve(const DeadLoads& loads, Backbone& backbone) {
     report = second;
   }
   warm_ = report.converged && report.stable;
+  solutions_ = warm_ ? solutions_ + 1 : 0;
   return report;
 }
 

@@ -12,8 +12,9 @@ struct ElementPasses {
 
   // Starts the passes from the unloaded shape under a constant moment.
   void (*reset_guess)(ElementState&);
-  // Moves the guess g along with a change of rest curvature: by so much, rad, at the end.
-  void (*predict)(ElementState&, const double (&turn)[3]);
+  // Moves the guess g along with a change of rest curvature: by so much, rad, at the end. `steadiness`: how far the change goes on
+  // as the last one did, 1 if it is the same; 0 if nothing is known. The columns go on, too, if asked for.
+  void (*predict)(ElementState&, const double (&turn)[3], double steadiness, bool with_columns);
   // One fixed-point pass over the nodes, from g to g; then the end values, change and size.
   void (*pass)(ElementState&);
   // Passes until the shape has converged to rounding; then all that ElementState says of it. False if they do not.

@@ -62,6 +62,9 @@ struct ElementState {
   StageRow phi[6][3], dm[6][3];
   StageRow phi_rate[6][3];  // what phi is the integral of
   double phi_start[6][3];
+  // Of the solution before: what predict() goes on from.
+  double turn[3];  // of the rest curvature from there to here, rad
+  StageRow g_before[3], phi_before[6][3], phi_rate_before[6][3];
   double column_change;      // of the last pass, relative
   double column_truncation;  // square of the highest Legendre coefficient of their rate, as it turns the end, relative
 

@@ -57,6 +57,7 @@ class StaticsSolver {
  private:
   class Finder;  // for the branch search
   bool quick(const DeadLoads& loads, bool has_inverse, Backbone& backbone, StaticsReport& report);
+  void goOn(const DeadLoads& loads, Backbone& backbone);
   bool findEquilibrium(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
   bool findAlongLoads(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
   void polish(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
@@ -73,12 +74,13 @@ class StaticsSolver {
   Chain chain_;
   double length_, accuracy_;
   Discretisation discretisation_;
-  Vector3 base_moment_ = Vector3::Zero();
+  Vector3 base_moment_ = Vector3::Zero(), moment_before_ = Vector3::Zero();  // of this solution and the last
   Matrix3 residual_inverse_ = Matrix3::Zero();  // of d residual / d base moment
   Matrix6 tangent_ = Matrix6::Zero();
   double softness_ = 0.0;      // L c_bt of the softest segment, rad / (N m)
   double stiffest_ = 0.0;      // rotation of the tip by a unit moment about its stiffest axis, unloaded, rad / (N m)
   double amplification_ = 1.0; // see StaticsReport, of the last solve
+  long solutions_ = 0;         // so far, one after the other on the same elements
   double rate_;                // at which the last sweeps converged
   bool warm_ = false;          // base moment and inverse are those of a solution
   bool has_columns_ = false;   // the elements hold columns of a shape nearby
