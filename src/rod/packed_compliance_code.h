@@ -46,12 +46,12 @@ LIVE_STIFFNESS_INLINE void storeSections(const ElementState& e, const StationBat
   const Lanes pose[12] = {R.x.x, R.x.y, R.x.z, R.y.x, R.y.y, R.y.z, R.z.x, R.z.y, R.z.z, e.p_start[0] + r[0],
                           e.p_start[1] + r[1], e.p_start[2] + r[2]};
   const Lanes *P = at, *K = at + 6, *W = at + 15;
-  const Lanes compliance[36] = {P[0], P[1], P[2], K[0], K[3], K[6],  //
-                                P[1], P[3], P[4], K[1], K[4], K[7],  //
-                                P[2], P[4], P[5], K[2], K[5], K[8],  //
-                                K[0], K[1], K[2], W[0], W[1], W[2],  //
-                                K[3], K[4], K[5], W[1], W[3], W[4],  //
-                                K[6], K[7], K[8], W[2], W[4], W[5]};
+  const Lanes compliance[36] = {P[0], P[1], P[2], K[0], K[1], K[2],  //
+                                P[1], P[3], P[4], K[3], K[4], K[5],  //
+                                P[2], P[4], P[5], K[6], K[7], K[8],  //
+                                K[0], K[3], K[6], W[0], W[1], W[2],  //
+                                K[1], K[4], K[7], W[1], W[3], W[4],  //
+                                K[2], K[5], K[8], W[2], W[4], W[5]};
   storeAcross(pose, s.pose + kLanes * v);
   storeAcross(compliance, s.compliance + kLanes * v);
 }
