@@ -97,6 +97,12 @@ struct ChainPasses {
   static LIVE_STIFFNESS_INLINE bool hasOffset(const ChainState& chain) {
     return chain.tip_offset[0] != 0.0 || chain.tip_offset[1] != 0.0 || chain.tip_offset[2] != 0.0;
   }
+  static LIVE_STIFFNESS_INLINE int countElements(const ChainState& chain) {
+    int count = 0;
+    for (int i = 0; i < chain.part_count; ++i)
+      if (chain.parts[i].segment >= 0) count += chain.element_count[chain.parts[i].segment];
+    return count;
+  }
   typedef double Vector[3];
 
   static void sweep(const ChainState& chain, Pass kind, SweepResult& result) {
@@ -147,7 +153,9 @@ struct ChainPasses {
     const bool has_offset = hasOffset(chain);
     ElementColumns room[2];
     const ElementColumns* start = &kBase;
-    double change = 0.0;
+    // Of the defects no element sees more than its own part.
+    const double part_goal = with_defect ? goal / countElements(chain) : goal;
+    double left = 0.0;
     Place at(chain.base_force, kNothing);
     const auto other = [&]() -> ElementColumns& { return start == &room[0] ? room[1] : room[0]; };
     const auto carry = [&](const Vector& piece, const Vector& weight, ElementColumns& end) {
@@ -160,13 +168,14 @@ struct ChainPasses {
         chain, [&](const Vector& piece, const Vector& weight) { carry(piece, weight, other()); },
         [&](ElementState& e, bool last) {
           ElementColumns& end = last && !has_offset ? tip : other();
-          change = largerOf(C::propagate(e, anew, *start, goal, with_defect, end), change);
+          const double own = C::propagate(e, anew, *start, part_goal, with_defect, end);
+          left = with_defect ? left + own : largerOf(own, left);
           start = &end;
           at.leave(e);
         });
     if (has_offset) carry(chain.tip_offset, kNothing, tip);
     if (start != &tip) tip = *start;
-    return change;
+    return left;
   }
 
   static LIVE_STIFFNESS_INLINE void addCompliance(ElementState& e) {
