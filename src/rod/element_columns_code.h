@@ -52,6 +52,14 @@ struct Columns : Collocation<kStages> {
     for (int v = 0; v < kVectors; ++v) store(e.dm[k], v, splat(start.m[k]) + moment.at[v]);
   }
 
+  // How far the end moves by column k.
+  static LIVE_STIFFNESS_INLINE void move(const GaussLegendre& t, const ElementState& e, int k, Lanes (&along)[18]) {
+    Lanes3 p{};
+#pragma GCC unroll 4
+    for (int v = 0; v < kVectors; ++v) p = p + load(t.b, v) * (loadMatrix(e.p_of_phi, v) * load(e.phi[k], v));
+    along[3 * k] = p.x, along[3 * k + 1] = p.y, along[3 * k + 2] = p.z;
+  }
+
   // What a pass finds of the columns that it starts from.
   struct Found {
     double phi_end[6][3];
@@ -60,30 +68,20 @@ struct Columns : Collocation<kStages> {
     StageRow missing[6][3];  // weight times phi' that the moments demand, less that which phi was made of
   };
 
-  static LIVE_STIFFNESS_INLINE void findEnd(const ElementState& e, int k, Found& found) {
-    Lanes3 p{};
-#pragma GCC unroll 4
-    for (int v = 0; v < kVectors; ++v) p = p + load(table().b, v) * (loadMatrix(e.p_of_phi, v) * load(e.phi[k], v));
-    found.along[3 * k] = p.x, found.along[3 * k + 1] = p.y, found.along[3 * k + 2] = p.z;
-    for (int i = 0; i < 3; ++i) found.phi_end[k][i] = e.phi[k][i][kStages];
-  }
-
   // Moments, then phi' = B (dm - phi x m). In this order the change of phi shows whatever is not yet right.
-  template <bool kFind>
   static void columnPass(ElementState& e, const ElementColumns& start, Found& found) {
     const GaussLegendre& t = table();
     Lanes change[2] = {}, size[2] = {};  // base moment and tip force have their own units
     for (int k = 0; k < 6; ++k) {
       updateMoments(t, e, start, k);
-      if (kFind) findEnd(e, k, found);
+      move(t, e, k, found.along);
+      for (int i = 0; i < 3; ++i) found.phi_end[k][i] = e.phi[k][i][kStages];
 #pragma GCC unroll 4
       for (int v = 0; v < kVectors; ++v) {
         const Lanes3 moment = load(e.dm[k], v) + cross(load(e.m, v), load(e.phi[k], v));
         const Lanes3 rate = loadSymmetric(e.bend, v) * moment;
-        if (kFind) {
-          store(found.moment[k], v, moment);
-          store(found.missing[k], v, load(t.b, v) * (rate - load(e.phi_rate[k], v)));
-        }
+        store(found.moment[k], v, moment);
+        store(found.missing[k], v, load(t.b, v) * (rate - load(e.phi_rate[k], v)));
         store(e.phi_rate[k], v, rate);
       }
       const Rows turn = integral(t, e.phi_rate[k]);
@@ -99,15 +97,15 @@ struct Columns : Collocation<kStages> {
     e.column_change = __builtin_sqrt(a + b);
   }
 
-  static LIVE_STIFFNESS_INLINE void columnEnd(ElementState& e, const ElementColumns& start, const Found& found,
-                                              ElementColumns& end) {
+  static LIVE_STIFFNESS_INLINE void columnEnd(ElementState& e, const ElementColumns& start, const Lanes (&along)[18],
+                                              const double (&phi_end)[6][3], ElementColumns& end) {
     static constexpr int kSymmetric[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
     double moved[18];
-    sums(found.along, moved);
+    sums(along, moved);
     for (int k = 0; k < 6; ++k)
       for (int i = 0; i < 3; ++i) {
         end.p[k][i] = start.p[k][i] + moved[3 * k + i] + (k >= 3 ? e.stretch[kSymmetric[i][k - 3]] : 0.0);
-        end.phi[k][i] = found.phi_end[k][i];
+        end.phi[k][i] = phi_end[k][i];
         end.m[k][i] = e.dm[k][i][kStages];
       }
     estimateTruncation(table(), e, end);
@@ -156,25 +154,23 @@ struct Columns : Collocation<kStages> {
     double last_change = __builtin_inf();
     Found found;
     for (int i = 0; i < kMaxPasses; ++i) {
-      // What is found is needed of the last pass only, and that is likely to be the same one as last time.
-      const bool find = with_defect && i + 1 >= e.column_passes;
-      if (find) columnPass<true>(e, start, found);
-      else columnPass<false>(e, start, found);
+      columnPass(e, start, found);
       const double change = e.column_change;
       // What is left after a pass is about its change times the rate at which changes shrink.
       const double rate = i > 0 && change < 0.2 * last_change ? change / last_change : 0.2;
       const double left = with_defect ? change : change * rate;
       if (left <= goal || (change <= 1e-13 && change >= last_change)) {
-        e.column_passes = i + 1;
-        if (with_defect && !find) continue;
-        if (!with_defect) {
+        if (with_defect) {
+          columnEnd(e, start, found.along, found.phi_end, end);
+          addDefect(found, start, end);
+        } else {
           for (int k = 0; k < 6; ++k) {
             updateMoments(table(), e, start, k);
-            findEnd(e, k, found);
+            move(table(), e, k, found.along);
+            for (int i = 0; i < 3; ++i) found.phi_end[k][i] = e.phi[k][i][kStages];
           }
+          columnEnd(e, start, found.along, found.phi_end, end);
         }
-        columnEnd(e, start, found, end);
-        if (with_defect) addDefect(found, start, end);
         return left;
       }
       if (!__builtin_isfinite(change)) break;

@@ -62,7 +62,6 @@ struct ElementState {
   StageRow phi[6][3], dm[6][3];
   StageRow phi_rate[6][3];  // what phi is the integral of
   double phi_start[6][3];
-  int column_passes;  // that the last solve took
   // Of the solution before: what predict() goes on from.
   double turn[3];  // of the rest curvature from there to here, rad
   StageRow g_before[3], phi_before[6][3], phi_rate_before[6][3];
