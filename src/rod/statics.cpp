@@ -18,6 +18,7 @@ constexpr double kResidualAccepted = 1e-8;  // rad, when rounding stops it short
 constexpr double kRoughColumns = 1e-2;      // relative error, enough for sweeps to converge
 constexpr double kFineColumns = 1e-12;      // for Newton steps where the residual is nearly singular, or huge
 constexpr double kMostAmplification = 1e6;
+constexpr int kMaxSweeps = 40;
 constexpr double kSlowestRate = 0.2;        // at which sweeps may be counted on to converge
 
 // All pivots of L D L^T of the symmetric part are positive, with `lifted` added to the diagonal of each block.
@@ -71,8 +72,9 @@ bool StaticsSolver::updateInverse(const DeadLoads& loads, double goal, Backbone&
 
 // Sweeps of one pass an element, each followed by a step of the base moment with the kept inverse: shape and moment
 // converge together, linearly, by a factor of about ten a sweep. Without trouble it takes one to ten.
-bool StaticsSolver::quick(const DeadLoads& loads, bool has_inverse, Backbone& backbone, StaticsReport& report) {
-  constexpr int kMaxSweeps = 40, kSweepsBeforeInverse = 2;
+bool StaticsSolver::quick(const DeadLoads& loads, bool has_inverse, int max_sweeps, Backbone& backbone,
+                          StaticsReport& report) {
+  constexpr int kSweepsBeforeInverse = 2;
   constexpr double kRounding = 1e-13;
   const double goal = std::max(0.2 * accuracy_ / amplification_, 1e-15);
   if (!has_inverse && !warm_) residual_inverse_.setIdentity();  // right but for the load's own effect
@@ -80,7 +82,7 @@ bool StaticsSolver::quick(const DeadLoads& loads, bool has_inverse, Backbone& ba
   int growing = 0;
   ChainState chain = stateOf(chain_, loads, base_moment_, backbone);
   SweepResult s;
-  for (int i = 0; i < kMaxSweeps && report.iterations < kMaxIterations; ++i) {
+  for (int i = 0; i < max_sweeps && report.iterations < kMaxIterations; ++i) {
     ++report.iterations;
     backbone.passes->sweep(chain, nodes_hold_guess_ ? Pass::kOnce : Pass::kAnew, s);
     nodes_hold_guess_ = s.sound;
@@ -217,7 +219,7 @@ bool StaticsSolver::findEquilibrium(const DeadLoads& loads, Backbone& backbone, 
   if (warm_) goOn(loads, backbone);
   else placeFresh(loads, backbone);
   while (true) {
-    bool converged = quick(loads, has_inverse, backbone, report);
+    bool converged = quick(loads, has_inverse, kMaxSweeps, backbone, report);
     if (!converged) {
       placeFresh(loads, backbone);
       converged = newton(loads, backbone, 30, report);
@@ -241,11 +243,10 @@ class StaticsSolver::Finder : public EquilibriumFinder {
       : solver_(solver), backbone_(backbone), report_(report) {}
 
   std::optional<Equilibrium> settle(const DeadLoads& loads, const Vector3& base_moment) override {
-    solver_.base_moment_ = base_moment;
     prepare(solver_.chain_, loads, backbone_);
     do {
-      solver_.warm_ = false;
-      if (!solver_.newton(loads, backbone_, 12, report_) || !solver_.findTangent(loads, backbone_, report_)) {
+      if (!(settleQuickly(loads, base_moment) || settleByNewton(loads, base_moment)) ||
+          !solver_.findTangent(loads, backbone_, report_)) {
         solver_.forgetGuesses(loads, backbone_);
         return std::nullopt;
       }
@@ -257,6 +258,25 @@ class StaticsSolver::Finder : public EquilibriumFinder {
   bool exhausted() const override { return report_.iterations >= kMaxIterations; }
 
  private:
+  // From the shape and the columns of the loads before.
+  bool settleQuickly(const DeadLoads& loads, const Vector3& base_moment) {
+    constexpr int kFewSweeps = 12;
+    constexpr double kFarFromBuckling = 4.0;  // amplification
+    if (!solver_.nodes_hold_guess_ || !solver_.has_columns_ || solver_.amplification_ > kFarFromBuckling) return false;
+    const Vector3 step = base_moment - solver_.base_moment_;
+    const ChainState chain = stateOf(solver_.chain_, loads, base_moment, backbone_);
+    backbone_.passes->follow_all(chain, {step.x(), step.y(), step.z()});
+    solver_.base_moment_ = base_moment;
+    const int before = report_.iterations;
+    const bool settled = solver_.quick(loads, true, kFewSweeps, backbone_, report_);
+    report_.iterations = before + 1;  // as much work as one converged shot
+    return settled;
+  }
+  bool settleByNewton(const DeadLoads& loads, const Vector3& base_moment) {
+    solver_.base_moment_ = base_moment;
+    solver_.warm_ = false;
+    return solver_.newton(loads, backbone_, 12, report_);
+  }
   bool refine(const DeadLoads& loads) {
     if (!solver_.discretisation_.refine(report_.amplification, backbone_)) return false;
     solver_.forgetGuesses(loads, backbone_);
@@ -272,7 +292,7 @@ class StaticsSolver::Finder : public EquilibriumFinder {
 void StaticsSolver::polish(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
   const Vector3 before = base_moment_;
   StaticsReport finer;
-  if (quick(loads, true, backbone, finer) && findTangent(loads, backbone, finer)) {
+  if (quick(loads, true, kMaxSweeps, backbone, finer) && findTangent(loads, backbone, finer)) {
     report.residual = finer.residual;
     report.iteration = finer.iteration;
   } else {

@@ -17,7 +17,8 @@ struct StaticsReport {
   bool buckled = false;        // the branch that starts at zero load was seen to lose its stability before the full
                                // loads; the result is on the stable one that it gives way to
   double stable_share = 1.0;   // of the loads, up to which that branch was seen to be stable
-  int iterations = 0;          // sweeps and converged shots, all attempts together; at most 2 kMaxIterations
+  int iterations = 0;          // sweeps, and shots or series of sweeps of a search along the loads, all attempts
+                               // together; at most 2 kMaxIterations
   double residual = 0.0;       // of the tip moment, as bending of the softest segment over its length, rad
   double truncation = 0.0;     // estimated relative error of discretisation
   double iteration = 0.0;      // estimated relative error of shape and columns, left by their last passes
@@ -56,7 +57,7 @@ class StaticsSolver {
 
  private:
   class Finder;  // for the branch search
-  bool quick(const DeadLoads& loads, bool has_inverse, Backbone& backbone, StaticsReport& report);
+  bool quick(const DeadLoads& loads, bool has_inverse, int max_sweeps, Backbone& backbone, StaticsReport& report);
   void goOn(const DeadLoads& loads, Backbone& backbone);
   bool findEquilibrium(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
   bool findAlongLoads(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
