@@ -334,10 +334,7 @@ bool StaticsSolver::findTangent(const DeadLoads& loads, Backbone& backbone, Stat
     has_columns_ = std::isfinite(change);
     if (!has_columns_) return false;
     const auto p = columnsOf(tip.p);
-    double inverse[9], compliance[36];
-    backbone.passes->tangent(tip, self_adjoint, inverse, compliance);
-    residual_inverse_ = Matrix3(inverse);
-    tangent_ = Matrix6(compliance);
+    backbone.passes->tangent(tip, self_adjoint, residual_inverse_.data(), tangent_.data());
     if (!std::isfinite(tangent_.sum())) return false;
     amplification_ = std::clamp(tangent_.diagonal().tail<3>().cwiseAbs().maxCoeff() / stiffest_, 1.0, kMostAmplification);
     cancellation = std::max(1.0, p.rightCols<3>().norm() / tangent_.topLeftCorner<3, 3>().norm());

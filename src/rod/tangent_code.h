@@ -21,15 +21,19 @@ struct Six {
   LIVE_STIFFNESS_INLINE void add(double k, const Six& a) {
     for (int i = 0; i < kVectors; ++i) v[i] += k * a.v[i];
   }
-  LIVE_STIFFNESS_INLINE void store(double* to) const {
-    for (int i = 0; i < 6; ++i) to[i] = v[i / kLanes][i % kLanes];
+  // Writes beyond its end with four lanes, unless it is the last.
+  LIVE_STIFFNESS_INLINE void store(double* to, bool last) const {
+    for (int i = 0; i < kVectors; ++i) {
+      if (kLanes * (i + 1) <= 6 || !last) storeUnaligned(to + kLanes * i, v[i]);
+      else for (int k = kLanes * i; k < 6; ++k) to[k] = v[i][k % kLanes];
+    }
   }
 };
 
 // With dm0 = X df + Y dM, X = -A^-1 B, Y = A^-1 from the residual's columns [A, B]: [df; dM] to the twist of T is
 // C = (Q + T^T G) T with T = [X, Y; I, 0], Q the columns' twists and G their defect, if it is to be corrected.
 // A_inverse, C: column-major.
-void tangent(const ElementColumns& tip, bool correct, double (&A_inverse)[9], double (&C)[36]) {
+void tangent(const ElementColumns& tip, bool correct, double* A_inverse, double* C) {
   double row[3][3], Y[3][3], X[3][3];  // Y[k][j], X[k][j]: entry (k, j)
   crossInto(tip.m[1], tip.m[2][0], tip.m[2][1], tip.m[2][2], row[0]);
   crossInto(tip.m[2], tip.m[0][0], tip.m[0][1], tip.m[0][2], row[1]);
@@ -52,15 +56,12 @@ void tangent(const ElementColumns& tip, bool correct, double (&A_inverse)[9], do
       H[j].add(1.0, Six({tip.defect[3][j], tip.defect[4][j], tip.defect[5][j]}, nothing));
     }
   }
-#pragma GCC unroll 3
-  for (int j = 0; j < 3; ++j) {
-    Six by_force = H[3 + j], by_moment({0.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
-    for (int k = 0; k < 3; ++k) {
-      by_force.add(X[k][j], H[k]);
-      by_moment.add(Y[k][j], H[k]);
-    }
-    by_force.store(C + 6 * j);
-    by_moment.store(C + 18 + 6 * j);
+#pragma GCC unroll 6
+  for (int j = 0; j < 6; ++j) {
+    const double(*row)[3] = j < 3 ? X : Y;
+    Six column = j < 3 ? H[3 + j] : Six({0.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
+    for (int k = 0; k < 3; ++k) column.add(row[k][j % 3], H[k]);
+    column.store(C + 6 * j, j == 5);
   }
 }
 

@@ -43,8 +43,9 @@ struct ElementPasses {
   // See tipColumns().
   double (*columns)(const ChainState&, bool anew, double goal, bool with_defect, ElementColumns& tip);
   // From the columns at the tip: inverse of the derivative of the residual with respect to the base moment, and the compliance of T
-  // under a dead wrench [f; m] at T; with their defect taken out if `correct`. Column-major.
-  void (*tangent)(const ElementColumns& tip, bool correct, double (&inverse)[9], double (&compliance)[36]);
+  // under a dead wrench [f; m] at T; with their defect taken out if `correct`. 3x3 and 6x6,
+  // column-major.
+  void (*tangent)(const ElementColumns& tip, bool correct, double* inverse, double* compliance);
   // Material compliance of the whole chain about T, which is at p_tip, and of what is before each element; after the
   // shape under dead loads. Returns an estimate of the relative error that this adds to that of the shape.
   double (*accumulate)(const ChainState&, double accuracy, const double (&p_tip)[3], PackedRow& compliance);
