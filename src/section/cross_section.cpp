@@ -1,5 +1,7 @@
 #include "live_stiffness/section/cross_section.h"
 
+#include <cmath>
+
 namespace live_stiffness {
 namespace {
 
@@ -23,16 +25,23 @@ SectionMoments::SectionMoments(const CrossSection& section)
     chamber_spread_ +=
         section.chambers.area() * (d.squaredNorm() * Eigen::Matrix2d::Identity() - d * d.transpose());
   }
+  // Symmetric layouts bend the same in all directions; rounding would hide that from what is quicker then.
+  const double mean = 0.5 * chamber_spread_.trace(), rounding = 1e-14 * mean;
+  if (std::abs(chamber_spread_(0, 0) - mean) <= rounding && std::abs(chamber_spread_(0, 1)) <= rounding)
+    chamber_spread_ = mean * Eigen::Matrix2d::Identity();
 }
 
 ComplianceDensity SectionMoments::complianceDensity(double stretch) const {
-  const double A = area(stretch);
-  const Eigen::Matrix2d I = secondMoments(stretch);
-  const double GA = shear_stiffness_modulus_ * A;
+  const Scaled at = scaled(stretch);
+  const double by_area = stretch / (at.area * youngs_modulus_);  // 1 / (E A)
+  const double by_moment = stretch * stretch / (at.determinant() * youngs_modulus_);
   ComplianceDensity c;
-  c.shear_elongation.diagonal() << 1.0 / GA, 1.0 / GA, 1.0 / (youngs_modulus_ * A);
-  c.bending_torsion.topLeftCorner<2, 2>() = I.inverse() / youngs_modulus_;
-  c.bending_torsion(2, 2) = 1.0 / (shear_modulus_ * I.trace());
+  c.shear_elongation(0, 0) = c.shear_elongation(1, 1) = by_area * (youngs_modulus_ / shear_stiffness_modulus_);
+  c.shear_elongation(2, 2) = by_area;
+  c.bending_torsion(0, 0) = by_moment * at.yy;
+  c.bending_torsion(1, 1) = by_moment * at.xx;
+  c.bending_torsion(0, 1) = c.bending_torsion(1, 0) = -by_moment * at.xy;
+  c.bending_torsion(2, 2) = stretch * stretch / (shear_modulus_ * (at.xx + at.yy));
   return c;
 }
 

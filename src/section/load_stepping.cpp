@@ -46,8 +46,9 @@ double elongationFor(const SectionMoments& section, double force) {
 }  // namespace
 
 int stepCount(double largest_pressure, double pressure_step) {
-  const double steps = std::ceil(largest_pressure / pressure_step - 1e-9);
-  return std::max(1, static_cast<int>(steps));
+  const double steps = largest_pressure / pressure_step - 1e-9;
+  const int whole = static_cast<int>(steps);  // std::ceil is a call where SSE4.1 is not taken for granted
+  return std::max(1, whole + (steps > whole));
 }
 
 LoadStepper::LoadStepper(const CrossSection& section)
@@ -58,25 +59,24 @@ LoadStepper::LoadStepper(const CrossSection& section)
   }
 }
 
-// (12), (15), (30): increments with the compliance and chamber positions of the step before.
+// (12), (15), (30): increments with the compliance and chamber positions of the step before. In quantities times powers of
+// lam, so that a step waits for one division only.
 RestState LoadStepper::fixedSteps(double force, const Eigen::Vector2d& moment, int steps) const {
-  double stretch = 1.0;
-  Eigen::Vector2d curvature = Eigen::Vector2d::Zero();
-  const double step = 1.0 / (steps * section_.youngsModulus());
+  double stretch = 1.0, x = 0.0, y = 0.0;
+  const double step = 1.0 / (steps * section_.youngsModulus()), pull = step * force;
   for (int i = 0; i < steps; ++i) {
-    const double A = section_.area(stretch);
-    const Eigen::Matrix2d I = section_.secondMoments(stretch);
-    const double determinant = I.determinant();
-    if (!(stretch > 0.0 && A > 0.0 && I.trace() > 0.0 && determinant > 0.0)) return outOfRange(stretch);
-    const double by_moment = step / (determinant * std::sqrt(stretch));  // 1 / sqrt(lam): the pitch radius shrinks
-    curvature.x() += by_moment * (I(1, 1) * moment.x() - I(0, 1) * moment.y());
-    curvature.y() += by_moment * (I(0, 0) * moment.y() - I(1, 0) * moment.x());
-    stretch += stretch * force * step / A;
+    const SectionMoments::Scaled scaled = section_.scaled(stretch);
+    if (!scaled.isValid()) return outOfRange(stretch);
+    // I^-1 dT, with 1 / sqrt(lam) as the pitch radius shrinks.
+    const double by_moment = step * stretch * std::sqrt(stretch) / scaled.determinant();
+    x += by_moment * (scaled.yy * moment.x() - scaled.xy * moment.y());
+    y += by_moment * (scaled.xx * moment.y() - scaled.xy * moment.x());
+    stretch += pull * stretch * stretch / scaled.area;  // lam dF / (E A)
   }
   if (!section_.isValidAt(stretch)) return outOfRange(stretch);
   RestState state;
   state.stretch = stretch;
-  state.curvature.head<2>() = curvature;
+  state.curvature.head<2>() << x, y;
   state.c = section_.complianceDensity(stretch);
   return state;
 }

@@ -11,8 +11,8 @@ namespace live_stiffness {
 // Compliance per unit of stretched length c = diag(c_se, c_bt) in section axes (2): shear and elongation (1/N),
 // bending and torsion (1/(N m^2)).
 struct ComplianceDensity {
-  Matrix3 shear_elongation = Matrix3::Zero();
-  Matrix3 bending_torsion = Matrix3::Zero();
+  Matrix3 shear_elongation = Matrix3::Zero();  // diagonal
+  Matrix3 bending_torsion = Matrix3::Zero();   // full in x and y, z apart
 };
 
 // Elastomer tube of incompressible area change (16): at stretch lam, A_solid ~ 1/lam, lengths in the section ~
@@ -52,12 +52,22 @@ class SectionMoments {
     return moments;
   }
 
-  // True if A(lam) and I(lam) are positive, that is, if c(lam) exists. False for NaN.
-  bool isValidAt(double stretch) const {
-    if (!(stretch > 0.0) || !(area(stretch) > 0.0)) return false;
-    const Eigen::Matrix2d moments = secondMoments(stretch);
-    return moments.trace() > 0.0 && moments.determinant() > 0.0;
+  // lam A(lam) and lam^2 I(lam), without a division.
+  struct Scaled {
+    double stretch, area, xx, xy, yy;
+
+    double determinant() const { return xx * yy - xy * xy; }
+    // A(lam) and I(lam) are positive. False for NaN.
+    bool isValid() const { return stretch > 0.0 && area > 0.0 && xx + yy > 0.0 && determinant() > 0.0; }
+  };
+  Scaled scaled(double stretch) const {
+    const double moment = tube_moment_ - chamber_moment_ * stretch * stretch;
+    return {stretch, tube_area_ - chamber_area_ * stretch, moment - stretch * chamber_spread_(0, 0),
+            -stretch * chamber_spread_(0, 1), moment - stretch * chamber_spread_(1, 1)};
   }
+
+  // True if A(lam) and I(lam) are positive, that is, if c(lam) exists. False for NaN.
+  bool isValidAt(double stretch) const { return scaled(stretch).isValid(); }
 
   // c(lam). Requires isValidAt(stretch).
   ComplianceDensity complianceDensity(double stretch) const;
