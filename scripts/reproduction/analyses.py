@@ -100,7 +100,7 @@ def deflect(context, axes, rows, panel, pressures, axis, sign, model="NCM"):
 
 
 def figure10(context):
-    count = 11 if context.quick else 31
+    count = 11 if context.quick else 21
     section = Section("figure10", "Figure 10: eigenstiffness over the workspace", text=(
         "NCM, `paper_one_segment.yaml`, all %d combinations of %d pressures from 0 to 1 bar in each pair; "
         "eigenstiffness of the material compliance. The paper interpolates from fewer; here every configuration is a "
