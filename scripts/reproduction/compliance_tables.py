@@ -50,7 +50,7 @@ def compare(section, rows, cases, bounds):
 def table5(context):
     section = Section("table5", "Table 5: compliance of one segment", text=(
         "Material compliance at the tip, cm/N, with the parameters inferred for each model: the paper prints neither "
-        "modulus nor pitch radius, nor what is left of the weight. Differences are Frobenius norms over that of the "
+        "modulus nor pitch radius. Differences are Frobenius norms over that of the "
         "printed matrix."))
     cases = context.paper["table_5"]
     rows = []

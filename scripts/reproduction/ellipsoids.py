@@ -92,8 +92,8 @@ def figure9(context):
     section.figures.append(("figure9", "Shadows on the x-z plane, scaled by 0.1 N. Blue: first segment, red: second, "
                                        "black: connection. Darker: more pressure."))
     section.bounds = (
-        "90 to 100 % is met if within 5 points of that. **Not reproduced**: 6 to 8 times. At rest, where little but "
-        "the lengths decides, ours is above 8 with both scenes, and it grows in (b).")
+        "90 to 100 % is met if within 5 points of that; 6 to 8 times, if it rounds to that. **Not reproduced**: the "
+        "latter. At rest, where little but the lengths decides, ours is above 8 with both scenes, and it grows in (b).")
     return section
 
 

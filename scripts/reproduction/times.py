@@ -54,7 +54,8 @@ def table7(context):
         "thread, processor time, default accuracy, median of many; the error is the largest over the pressures, of "
         "pose and both compliances, relative to a solve at 1e-12. Since times on two machines say little, the paper's "
         "own method is measured in the same run, in turns with ours: RK4 with 50 steps, shooting on the base wrench "
-        "with finite differences, in C++ (`common practice`, NCM only, with the tangent too). %s. Table 6 is without "
+        "with finite differences, in C++ (`common practice`, NCM only; it also solves six times again for the "
+        "tangent, which ours includes and the paper's does not have). %s. Table 6 is without "
         "weight here, so that ours takes the closed form." % report_page.machine()))
     lines, ratios, slower, largest_error = [], [], [], 0.0
     work = configurations(context)

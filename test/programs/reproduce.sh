@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # scripts/reproduce as a user runs it, quickly: pages, pictures, exit status; and that a number of the paper which does
-# not fit makes it fail. BUILD_DIR SOURCE_DIR
+# not fit makes it fail. PROGRAM_DIR SOURCE_DIR
 set -euo pipefail
 build=$1 source=$2
 /usr/bin/python3 -c 'import matplotlib, yaml' || { echo "skipped: python3-matplotlib or python3-yaml is missing"; exit 77; }
