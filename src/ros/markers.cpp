@@ -107,7 +107,7 @@ MarkerArray makeEigenscrewMarkers(const Estimate& estimate, bool stale, double l
     std::snprintf(text, sizeof text, "%+.3g N, %+.3g mm/rad", screw.eigenvalue, 1e3 * screw.pitch);
     Marker label = newMarker(style.frame, stamp, "eigenscrews", 6 + i, Marker::TEXT_VIEW_FACING);
     // Positive and negative screws often share a line: their labels stand at its two ends.
-    setText(label, middle + (is_positive ? 1.05 : -1.05) * half, 0.0035, text);
+    setText(label, middle + (is_positive ? 1.05 : -1.05) * half, 0.003, text);
     label.color = line.color;
     markers.markers.insert(markers.markers.end(), {line, label});
   }
@@ -130,7 +130,7 @@ MarkerArray makeGhostMarkers(const Ghost* ghost, double force_n_per_m, const Mar
     deleteAll(markers);
     return markers;
   }
-  setText(text, ghost->text_place, 0.004, ghost->text);
+  setText(text, ghost->text_place, 0.0035, ghost->text);
   if (ghost->shape.empty()) {
     tube.action = tip.action = arrow.action = Marker::DELETE;
     text.color = color(1.0, 0.5, 0.3, 1.0);

@@ -12,12 +12,12 @@ namespace {
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
-// A plate (both of its faces, coloured alike) through points in their order around their mean.
+// A plate through points in their order around their mean.
 void setPlate(Marker& marker, std::vector<Vector3> corners, const std_msgs::ColorRGBA& shade) {
   marker.color = shade;
   Vector3 centre = Vector3::Zero();
   for (const Vector3& corner : corners) centre += corner / corners.size();
-  // Around the mean, in the plane that the first two corners that are not in line with it span.
+  // Around the mean, in the plane of the first corner and the one farthest from the line through it.
   const Vector3 x = (corners.front() - centre).normalized();
   Vector3 y = Vector3::Zero();
   for (const Vector3& corner : corners) {
@@ -31,6 +31,7 @@ void setPlate(Marker& marker, std::vector<Vector3> corners, const std_msgs::Colo
   for (size_t i = 0; i < corners.size(); ++i)
     for (const Vector3& corner : {centre, corners[i], corners[(i + 1) % corners.size()]})
       marker.points.push_back(toPoint(corner));
+  marker.colors.assign(marker.points.size(), shade);  // a colour of its own for each point is drawn without light
 }
 
 std::string eigenvalueText(const ParallelEstimate& estimate, bool stale) {

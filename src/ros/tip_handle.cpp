@@ -1,5 +1,6 @@
 #include "live_stiffness/ros/tip_handle.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "live_stiffness/analysis/holding_wrench.h"
@@ -39,7 +40,7 @@ std::string wrenchText(const Wrench& wrench) {
 std::string motionText(const Pose& before, const Pose& after, const Pose& predicted) {
   const PoseDifference motion = differenceOf(before, after), error = differenceOf(predicted, after);
   char text[120];
-  std::snprintf(text, sizeof text, "moves %.3g mm, turns %.3g deg\nfrom C alone: %.2g mm off", 1e3 * motion.position,
+  std::snprintf(text, sizeof text, "%.3g mm, %.3g deg; from C alone %.2g mm off", 1e3 * motion.position,
                 degrees(motion.rotation), 1e3 * error.position);
   return text;
 }
@@ -114,7 +115,7 @@ void TipHandle::insertMarker(const Pose& X_BT) {
   ball.name = "move";
   ball.interaction_mode = InteractiveMarkerControl::MOVE_3D;
   ball.always_visible = true;
-  ball.markers.push_back(newMarker(style_.frame, ros::Time(), "", 0, visualization_msgs::Marker::SPHERE));
+  ball.markers.push_back(newMarker("", ros::Time(), "", 0, visualization_msgs::Marker::SPHERE));  // in the handle's axes
   setBall(ball.markers.back(), Vector3::Zero(), 0.35 * marker.scale, color(0.9, 0.9, 0.95, 0.35));
   marker.controls.push_back(ball);
   server_.insert(marker, [this](const InteractiveMarkerFeedback::ConstPtr& feedback) { onFeedback(feedback); });
@@ -162,7 +163,8 @@ void TipHandle::update() {
 
 Ghost TipHandle::answer(const Estimate& estimate) {
   Ghost ghost = question_ == Question::kDeflectionUnderWrench ? answerDeflection(estimate) : answerForce(estimate);
-  ghost.text_place = dragged_->p + Vector3(0.0, 0.0, 0.25 * model_.scene().length());
+  ghost.text_place = {dragged_->p.x(), dragged_->p.y(),  // above handle, tip and eigenvalues
+                      std::max(dragged_->p.z(), estimate.solution.X_BT.p.z()) + 0.036};
   return ghost;
 }
 

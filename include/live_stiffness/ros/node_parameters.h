@@ -38,7 +38,7 @@ struct NodeParameters {
   double ellipsoid_scale = 0.3;  // m of half axis per m/N, that is, the force in N whose displacement is drawn
   double marker_rate = 10.0;     // Hz
   bool show_eigenscrews = false;
-  double eigenscrew_length = 0.08;  // of each axis drawn, m
+  double eigenscrew_length = 0.06;  // of each axis drawn, m
   TipHandleOptions tip_handle;
 };
 

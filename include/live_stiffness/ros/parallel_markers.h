@@ -7,7 +7,9 @@
 namespace live_stiffness {
 
 struct ParallelMarkerStyle : MarkerStyle {
-  double rotation_scale = 0.1;  // half axis drawn per rotational compliance, m per (rad/(N m))
+  ParallelMarkerStyle() { ellipsoid_scale = 50.0; }  // steel rods are stiff
+
+  double rotation_scale = 0.6;  // half axis drawn per rotational compliance, m per (rad/(N m))
 };
 
 // Markers, by namespace: `rods` (tubes, a colour each, as thick as they are), `platform` and `base` (plates through the
