@@ -1,17 +1,16 @@
 #include "live_stiffness/ros/parallel_node.h"
 
+#include "live_stiffness/ros/parallel_markers.h"
+#include "live_stiffness/ros/solver_report.h"
+
 namespace live_stiffness {
-namespace {
-
-using diagnostic_msgs::DiagnosticStatus;
-
-}  // namespace
 
 ParallelNode::ParallelNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
     : node_(node),
       private_node_(private_node),
       parameters_(loadParallelParameters(private_node)),
       estimator_(parameters_.scene, parameters_.model),
+      pose_output_(private_node, "platform_pose", parameters_.frames),
       diagnostics_(node, private_node),
       length_input_(
           node,
@@ -24,7 +23,6 @@ ParallelNode::ParallelNode(const ros::NodeHandle& node, const ros::NodeHandle& p
           [this] { return estimator_.estimate() ? &estimator_.estimate()->solution.X_BP : nullptr; },
           [this](const Wrench& wrench) { onWrench(wrench); }) {
   estimate_publisher_ = private_node_.advertise<PlatformEstimate>("estimate", 10);
-  pose_publisher_ = private_node_.advertise<geometry_msgs::PoseStamped>("platform_pose", 10);
   marker_publisher_ = private_node_.advertise<visualization_msgs::MarkerArray>("markers", 1);
   diagnostics_.setHardwareID("live_stiffness");
   diagnostics_.add("Rod lengths", &length_input_, &ArrayInput::diagnose);
@@ -62,12 +60,7 @@ void ParallelNode::publishEstimate() {
   setStanding(estimator_.status().code, newestFault(), length_input_.isStale(), parameters_.length_timeout,
               "rod lengths", message);
   estimate_publisher_.publish(message);
-  if (message.stale) return;
-  pose_publisher_.publish(toPoseStamped(estimate.solution.X_BP, estimate_stamp_, parameters_.frames.base));
-  if (estimate_stamp_ == tf_stamp_) return;
-  tf_stamp_ = estimate_stamp_;
-  tf_broadcaster_.sendTransform(
-      toTransform(estimate.solution.X_BP, estimate_stamp_, parameters_.frames.base, parameters_.frames.body));
+  if (!message.stale) pose_output_.publish(estimate.solution.X_BP, estimate_stamp_);
 }
 
 void ParallelNode::onHeartbeat(const ros::TimerEvent&) {
@@ -83,19 +76,7 @@ void ParallelNode::onMarkers(const ros::TimerEvent&) {
 }
 
 void ParallelNode::diagnoseSolver(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  if (!estimator_.status().ok())
-    status.summary(DiagnosticStatus::ERROR, estimator_.statusText());
-  else if (estimator_.estimate() == nullptr)
-    status.summary(DiagnosticStatus::WARN, "nothing solved yet");
-  else if (!wrench_input_.fault().empty())
-    status.summary(DiagnosticStatus::WARN, wrench_input_.fault());
-  else
-    status.summary(DiagnosticStatus::OK, "ok");
-  if (estimator_.estimate() == nullptr) return;
-  const ParallelEstimate& estimate = *estimator_.estimate();
-  status.add("solve time (us)", 1e6 * estimate.solve_time);
-  status.add("iterations", estimate.solution.iterations);
-  status.add("numerical error", estimate.solution.numerical_error);
+  reportSolver(estimator_, wrench_input_.fault(), status);
 }
 
 }  // namespace live_stiffness

@@ -1,9 +1,10 @@
 #include "live_stiffness/ros/stiffness_node.h"
 
+#include "live_stiffness/ros/solver_report.h"
+
 namespace live_stiffness {
 namespace {
 
-using diagnostic_msgs::DiagnosticStatus;
 using diagnostic_updater::DiagnosticStatusWrapper;
 
 constexpr int kBackboneSamples = 20;  // per segment
@@ -15,6 +16,7 @@ StiffnessNode::StiffnessNode(const ros::NodeHandle& node, const ros::NodeHandle&
       private_node_(private_node),
       parameters_(loadNodeParameters(private_node)),
       estimator_(parameters_.scene, parameters_.model, parameters_.estimator),
+      pose_output_(private_node, "tip_pose", parameters_.frames),
       diagnostics_(node, private_node),
       wrench_input_(
           node, "tip_wrench", parameters_.frames, parameters_.tip_wrench_timeout,
@@ -30,7 +32,6 @@ StiffnessNode::StiffnessNode(const ros::NodeHandle& node, const ros::NodeHandle&
   marker_style_.frame = parameters_.frames.base;
   marker_style_.ellipsoid_scale = parameters_.ellipsoid_scale;
   estimate_publisher_ = private_node_.advertise<StiffnessEstimate>("estimate", 10);
-  tip_pose_publisher_ = private_node_.advertise<geometry_msgs::PoseStamped>("tip_pose", 10);
   error_publisher_ = private_node_.advertise<TrackingError>("tracking_error", 10);
   wrench_publisher_ = private_node_.advertise<geometry_msgs::WrenchStamped>("tip_wrench_estimate", 10);
   backbone_publisher_ = private_node_.advertise<nav_msgs::Path>("backbone", 1);
@@ -73,12 +74,7 @@ void StiffnessNode::publishEstimate() {
   setStanding(estimator_.status().code, newestFault(), pressure_input_.isStale(), parameters_.pressure_timeout,
               "pressures", message);
   estimate_publisher_.publish(message);
-  if (message.stale) return;
-  tip_pose_publisher_.publish(toPoseStamped(estimate.solution.X_BT, estimate_stamp_, parameters_.frames.base));
-  if (estimate_stamp_ == tf_stamp_) return;
-  tf_stamp_ = estimate_stamp_;
-  tf_broadcaster_.sendTransform(
-      toTransform(estimate.solution.X_BT, estimate_stamp_, parameters_.frames.base, parameters_.frames.body));
+  if (!message.stale) pose_output_.publish(estimate.solution.X_BT, estimate_stamp_);
 }
 
 void StiffnessNode::onHeartbeat(const ros::TimerEvent&) {
@@ -125,20 +121,8 @@ void StiffnessNode::diagnoseTracker(DiagnosticStatusWrapper& status) {
 }
 
 void StiffnessNode::diagnoseSolver(DiagnosticStatusWrapper& status) {
-  if (!estimator_.status().ok())
-    status.summary(DiagnosticStatus::ERROR, estimator_.statusText());
-  else if (estimator_.estimate() == nullptr)
-    status.summary(DiagnosticStatus::WARN, "nothing solved yet");
-  else if (!wrench_input_.fault().empty())
-    status.summary(DiagnosticStatus::WARN, wrench_input_.fault());
-  else
-    status.summary(DiagnosticStatus::OK, "ok");
-  if (estimator_.estimate() == nullptr) return;
-  const Estimate& estimate = *estimator_.estimate();
   status.add("model", modelName(parameters_.model) + ", " + steppingName(parameters_.model.stepping));
-  status.add("solve time (us)", 1e6 * estimate.solve_time);
-  status.add("iterations", estimate.solution.iterations);
-  status.add("numerical error", estimate.solution.numerical_error);
+  reportSolver(estimator_, wrench_input_.fault(), status);
 }
 
 }  // namespace live_stiffness

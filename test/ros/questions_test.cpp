@@ -285,6 +285,23 @@ TEST_F(TipHandleTest, DraggedShowsTheForceThatHoldsTheTipThereAndTheRobotBent) {
   EXPECT_TRUE(ghostSays(force)) << marker("ghost_text")->text;
 }
 
+TEST_F(TipHandleTest, DraggedAsAPoseShowsTheWrenchThatHoldsIt) {
+  select(kWrench);
+  const Vector3 goal = solution_.X_BT.p + Vector3(0.0005, 0.0, 0.0);
+  const HoldingWrench expected =
+      findHoldingWrench(model_, bent_, Wrench::Zero(), {goal, solution_.X_BT.R}, workspace_);
+  ASSERT_TRUE(expected.reached);
+  char moment[32];
+  std::snprintf(moment, sizeof moment, "%.3g mN m", 1e3 * angular(expected.wrench).norm());
+  ASSERT_TRUE(publishUntil(
+      [&] {
+        pressures_.publish(toPressures(bent_, ros::Time::now()));
+        drag(goal);
+      },
+      [&] { return marker("ghost") && ghostSays(moment); }));
+  EXPECT_LT((ghostTip() - goal).norm(), 1e-7);
+}
+
 TEST_F(TipHandleTest, AppliedWrenchShowsTheExactDeflection) {
   select(kApply);
   const Vector3 way(0.0005, 0.0, 0.0005);

@@ -4,13 +4,13 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
-#include <tf2_ros/transform_broadcaster.h>
 
 #include <string>
 #include <vector>
 
 #include "live_stiffness/ros/array_input.h"
 #include "live_stiffness/ros/parallel_parameters.h"
+#include "live_stiffness/ros/pose_output.h"
 #include "live_stiffness/ros/wrench_input.h"
 
 namespace live_stiffness {
@@ -35,12 +35,11 @@ class ParallelNode {
   ros::NodeHandle node_, private_node_;
   ParallelParameters parameters_;
   ParallelEstimator estimator_;
-  ros::Publisher estimate_publisher_, pose_publisher_, marker_publisher_;
-  tf2_ros::TransformBroadcaster tf_broadcaster_;
+  PoseOutput pose_output_;
+  ros::Publisher estimate_publisher_, marker_publisher_;
   diagnostic_updater::Updater diagnostics_;
   ros::Time length_stamp_;    // of the newest usable lengths
   ros::Time estimate_stamp_;  // of the lengths of the last good estimate
-  ros::Time tf_stamp_;        // of the last transform sent; tf refuses the same stamp twice
   std::string input_fault_;   // why the newest lengths cannot even be read; empty: they can
 
   // Last, so that no callback runs before the rest exists.

@@ -4,7 +4,6 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 #include <tf2_ros/static_transform_broadcaster.h>
-#include <tf2_ros/transform_broadcaster.h>
 
 #include <memory>
 #include <string>
@@ -13,6 +12,7 @@
 #include "live_stiffness/estimation/tip_force.h"
 #include "live_stiffness/ros/markers.h"
 #include "live_stiffness/ros/node_parameters.h"
+#include "live_stiffness/ros/pose_output.h"
 #include "live_stiffness/ros/pressure_input.h"
 #include "live_stiffness/ros/stiffness_services.h"
 #include "live_stiffness/ros/tip_handle.h"
@@ -44,16 +44,15 @@ class StiffnessNode {
   ros::NodeHandle node_, private_node_;
   NodeParameters parameters_;
   StiffnessEstimator estimator_;
+  PoseOutput pose_output_;
   MarkerStyle marker_style_;
-  ros::Publisher estimate_publisher_, tip_pose_publisher_, backbone_publisher_, marker_publisher_, error_publisher_,
+  ros::Publisher estimate_publisher_, backbone_publisher_, marker_publisher_, error_publisher_,
       wrench_publisher_;
-  tf2_ros::TransformBroadcaster tf_broadcaster_;
   tf2_ros::StaticTransformBroadcaster static_tf_broadcaster_;
   diagnostic_updater::Updater diagnostics_;
 
   ros::Time pressure_stamp_;  // of the newest usable pressures
   ros::Time estimate_stamp_;  // of the pressures of the last good estimate
-  ros::Time tf_stamp_;        // of the last transform sent; tf refuses the same stamp twice
   std::string input_fault_;   // why the newest pressures cannot even be read; empty: they can
   double tracking_error_ = 0.0;  // newest distance, m
 
