@@ -115,7 +115,8 @@ void TipHandle::insertMarker(const Pose& X_BT) {
   ball.name = "move";
   ball.interaction_mode = InteractiveMarkerControl::MOVE_3D;
   ball.always_visible = true;
-  ball.markers.push_back(newMarker("", ros::Time(), "", 0, visualization_msgs::Marker::SPHERE));  // in the handle's axes
+  // Without a frame it is in the handle's own.
+  ball.markers.push_back(newMarker("", ros::Time(), "", 0, visualization_msgs::Marker::SPHERE));
   setBall(ball.markers.back(), Vector3::Zero(), 0.35 * marker.scale, color(0.9, 0.9, 0.95, 0.35));
   marker.controls.push_back(ball);
   server_.insert(marker, [this](const InteractiveMarkerFeedback::ConstPtr& feedback) { onFeedback(feedback); });

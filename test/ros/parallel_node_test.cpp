@@ -167,7 +167,8 @@ TEST_F(ParallelNodeTest, TransformAndMarkersShowTheEstimate) {
   tf2_ros::TransformListener listener(buffer);
   const Pose X_BP = expected(leaning_).X_BP;
   ASSERT_TRUE(driveUntil(leaning_, [&] {
-    if (!solvedFor(leaning_) || !newest_markers_ || !buffer.canTransform("base", "platform", ros::Time(0))) return false;
+    if (!solvedFor(leaning_) || !newest_markers_) return false;
+    if (!buffer.canTransform("base", "platform", ros::Time(0))) return false;
     const auto& p = buffer.lookupTransform("base", "platform", ros::Time(0)).transform.translation;
     return (Vector3(p.x, p.y, p.z) - X_BP.p).norm() < 1e-7;
   }));

@@ -7,7 +7,8 @@
 
 namespace live_stiffness {
 
-// estimator: StiffnessEstimator or ParallelEstimator. wrench_fault: what is wrong with the known wrench; empty: nothing.
+// estimator: StiffnessEstimator or ParallelEstimator. wrench_fault: what is wrong with the known wrench; empty:
+// nothing.
 template <class Estimator>
 void reportSolver(const Estimator& estimator, const std::string& wrench_fault,
                   diagnostic_updater::DiagnosticStatusWrapper& status) {
