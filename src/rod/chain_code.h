@@ -35,8 +35,8 @@ class Place {
     R = &e.R_end, n = &e.n_end, m = &e.m_end;
     for (int i = 0; i < 3; ++i) p[i] = e.p_start[i] + e.offset_end[i];
   }
-  // Over a rigid piece, axes of the section; weight: of its own, at its middle, N. Returns the piece in base axes and the force
-  // that turns with it.
+  // Over a rigid piece, axes of the section; weight: of its own, at its middle, N. Returns the piece in base axes and
+  // the force that turns with it.
   struct Rigid {
     double along[3], force[3];
   };
@@ -90,7 +90,8 @@ struct ChainPasses {
         const double* g = chain.gravity;
         on_link({0.0, 0.0, part.length}, {part.mass * g[0], part.mass * g[1], part.mass * g[2]});
       } else {
-        for (int k = chain.element_count[part.segment]; k > 0; --k, ++e) on_element(*e, k == 1 && i + 1 == chain.part_count);
+        const bool last_part = i + 1 == chain.part_count;
+        for (int k = chain.element_count[part.segment]; k > 0; --k, ++e) on_element(*e, last_part && k == 1);
       }
     }
   }

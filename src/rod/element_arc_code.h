@@ -24,11 +24,12 @@ struct Arc {
   Lanes compliance[kPackedSize];  // about the start
 };
 
-// Entries (i, j) of x a b^T + ... in base axes.
 LIVE_STIFFNESS_INLINE Arc arcTo(const ElementState& e, Lanes s) {
-  const double curvature = __builtin_sqrt(e.rest_curvature[0] * e.rest_curvature[0] + e.rest_curvature[1] * e.rest_curvature[1]);
-  const double ax = curvature > 0.0 ? e.rest_curvature[0] / curvature : 1.0;
-  const double ay = curvature > 0.0 ? e.rest_curvature[1] / curvature : 0.0;
+  const double* u = e.rest_curvature;
+  const double square = u[0] * u[0] + u[1] * u[1];
+  const bool straight = !(square > 1e-290);  // below, digits of the square are lost, and any axis will do
+  const double curvature = straight ? 0.0 : __builtin_sqrt(square);
+  const double ax = straight ? 1.0 : u[0] / curvature, ay = straight ? 0.0 : u[1] / curvature;
   double q1[3], q2[3], q3[3];
   rotate(e.R_start, {ay, -ax, 0.0}, q1);
   rotate(e.R_start, {ax, ay, 0.0}, q2);
@@ -61,7 +62,8 @@ LIVE_STIFFNESS_INLINE Arc arcTo(const ElementState& e, Lanes s) {
     }
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
-      arc.compliance[6 + 3 * i + j] = (q1[i] * q2[j]) * K12 + (q2[i] * q1[j]) * K21 + (q2[i] * q3[j]) * K23 + (q3[i] * q2[j]) * K32;
+      arc.compliance[6 + 3 * i + j] =
+          (q1[i] * q2[j]) * K12 + (q2[i] * q1[j]) * K21 + (q2[i] * q3[j]) * K23 + (q3[i] * q2[j]) * K32;
   Lanes across[3], along[3];  // q1 and q3 turned by the angle about q2
   for (int i = 0; i < 3; ++i) {
     across[i] = d3 * q1[i] - d1 * q3[i];
@@ -77,7 +79,8 @@ LIVE_STIFFNESS_INLINE Arc arcTo(const ElementState& e, Lanes s) {
 // End and compliance of the element.
 inline void placeArc(ElementState& e) {
   const Arc arc = arcTo(e, splat(e.length));
-  const Lanes R[9] = {arc.R.x.x, arc.R.y.x, arc.R.z.x, arc.R.x.y, arc.R.y.y, arc.R.z.y, arc.R.x.z, arc.R.y.z, arc.R.z.z};
+  const Lanes R[9] = {arc.R.x.x, arc.R.y.x, arc.R.z.x, arc.R.x.y, arc.R.y.y,
+                      arc.R.z.y, arc.R.x.z, arc.R.y.z, arc.R.z.z};
   for (int i = 0; i < 9; ++i) e.R_end[i] = R[i][0];
   for (int i = 0; i < 3; ++i) e.offset_end[i] = arc.r[i][0];
   for (int i = 0; i < kPackedSize; ++i) e.compliance[i] = arc.compliance[i][0];

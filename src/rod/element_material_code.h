@@ -71,8 +71,8 @@ struct Material {
   }
 
   // g and its rate at the dense nodes.
-  static LIVE_STIFFNESS_INLINE void rotations(const ElementState& e, int stages, bool unloaded, bool improved, Vectors& g,
-                                              Vectors& g_rate) {
+  static LIVE_STIFFNESS_INLINE void rotations(const ElementState& e, int stages, bool unloaded, bool improved,
+                                              Vectors& g, Vectors& g_rate) {
     if (unloaded) {
       const Lanes3 u = splat(e.rest_curvature);
       for (int v = 0; v < kVectors; ++v) {

@@ -138,7 +138,8 @@ struct Shape : Collocation<kStages> {
     double m[3];
     rotateBack(e.R_start, e.m_start, m);
     const double u[3] = {e.rest_curvature[0] + e.bend_xx * m[0] + e.bend_xy * m[1],
-                         e.rest_curvature[1] + e.bend_xy * m[0] + e.bend_yy * m[1], e.rest_curvature[2] + e.torsion * m[2]};
+                         e.rest_curvature[1] + e.bend_xy * m[0] + e.bend_yy * m[1],
+                         e.rest_curvature[2] + e.torsion * m[2]};
     const double quarter = 0.25 * e.length * e.length * squaredNorm(u), third = (quarter < 1.0 ? quarter : 1.0) / 3.0;
     for (int v = 0; v < kVectors; ++v) {
       const Lanes c = load(t.c, v);

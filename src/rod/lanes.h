@@ -34,7 +34,8 @@ LIVE_STIFFNESS_INLINE double sum(Lanes x) {
 #endif
 typedef long long LanesMask __attribute__((vector_size(8 * LIVE_STIFFNESS_LANES)));
 
-// Sums over the lanes of each row, and rows to one array a lane (out[lane][0...] = rows[...][lane]), a square at a time.
+// Sums over the lanes of each row, and rows to one array a lane (out[lane][0...] = rows[...][lane]), a square at a
+// time.
 LIVE_STIFFNESS_INLINE Lanes sumsOfSquare(const Lanes* rows) {
 #if LIVE_STIFFNESS_LANES == 4
   const Lanes a = LIVE_STIFFNESS_PICK(rows[0], rows[1], 0, 4, 2, 6) + LIVE_STIFFNESS_PICK(rows[0], rows[1], 1, 5, 3, 7);

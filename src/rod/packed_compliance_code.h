@@ -36,8 +36,8 @@ LIVE_STIFFNESS_INLINE void shift(const T (&d)[3], T* at) {
   P[5] = P[5] - (a[2][2] + b[2][2]);
 }
 
-// A batch of sections of an element goes out, one a lane. r: from the element's start, m; own: compliance from there to the
-// section, about the start.
+// A batch of sections of an element goes out, one a lane. r: from the element's start, m; own: compliance from there to
+// the section, about the start.
 LIVE_STIFFNESS_INLINE void storeSections(const ElementState& e, const StationBatch& s, int v, const LanesMatrix& R,
                                          const Lanes (&r)[3], const Lanes* own) {
   Lanes at[kPackedSize];

@@ -38,14 +38,16 @@ double steadinessOf(const Chain& chain, const Backbone& backbone) {
     const RestState& rest = backbone.rest[part.segment];
     const int count = backbone.element_count[part.segment];
     for (int k = 0; k < count; ++k, ++element) {
-      const Vector3 turn = turnOf(element->state, rest.stretch * part.length / count, rest), before(element->state.turn);
+      const ElementState& e = element->state;
+      const Vector3 turn = turnOf(e, rest.stretch * part.length / count, rest), before(e.turn);
       along += turn.dot(before);
       last += before.squaredNorm();
       now += turn.squaredNorm();
     }
   }
   const double steadiness = along / last;
-  const bool is_steady = now - steadiness * along <= kNear * kNear * now && std::abs(steadiness) <= kMost;  // false if NaN
+  const bool is_steady =  // false if NaN
+      now - steadiness * along <= kNear * kNear * now && std::abs(steadiness) <= kMost;
   return is_steady ? steadiness : 0.0;
 }
 

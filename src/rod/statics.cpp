@@ -8,6 +8,7 @@
 
 #include "live_stiffness/rod/conjugate_points.h"
 #include "live_stiffness/rod/kinematics.h"
+#include "live_stiffness/rod/stability.h"
 
 namespace live_stiffness {
 namespace {
@@ -21,33 +22,14 @@ constexpr double kMostAmplification = 1e6;
 constexpr int kMaxSweeps = 40;
 constexpr double kSlowestRate = 0.2;        // at which sweeps may be counted on to converge
 
-// All pivots of L D L^T of the symmetric part are positive, with `lifted` added to the diagonal of each block.
-bool isPositiveDefinite(const Matrix6& a, double lifted_linear, double lifted_angular) {
-  double l[6][6];
-#pragma GCC unroll 6
-  for (int j = 0; j < 6; ++j) {
-#pragma GCC unroll 6
-    for (int i = j + 1; i < 6; ++i) l[i][j] = 0.5 * (a(i, j) + a(j, i));
-    l[j][j] = a(j, j) + (j < 3 ? lifted_linear : lifted_angular);
-  }
-#pragma GCC unroll 6
-  for (int k = 0; k < 6; ++k) {
-    if (!(l[k][k] > 0.0)) return false;
-    const double inverse = 1.0 / l[k][k];
-#pragma GCC unroll 6
-    for (int j = k + 1; j < 6; ++j) {
-      const double factor = l[j][k] * inverse;
-#pragma GCC unroll 6
-      for (int i = j; i < 6; ++i) l[i][j] -= factor * l[i][k];
-    }
-  }
-  return true;
-}
-
 }  // namespace
 
 StaticsSolver::StaticsSolver(const Scene& scene, double accuracy, int stages)
-    : chain_(scene), length_(scene.length()), accuracy_(accuracy), discretisation_(chain_, accuracy, stages), rate_(kSlowestRate) {}
+    : chain_(scene),
+      length_(scene.length()),
+      accuracy_(accuracy),
+      discretisation_(chain_, accuracy, stages),
+      rate_(kSlowestRate) {}
 
 void StaticsSolver::reset() {
   warm_ = has_columns_ = false;
@@ -203,7 +185,8 @@ void StaticsSolver::prepareUnloaded(Backbone& backbone) {
   prepare(chain_, DeadLoads(), backbone);
 }
 
-// A guess from the last solutions. Where one pass over the columns is enough as it is, to extrapolate them does not pay.
+// A guess from the last solutions. Where one pass over the columns is enough as it is, to extrapolate them does not
+// pay.
 void StaticsSolver::goOn(const DeadLoads& loads, Backbone& backbone) {
   constexpr double kOnePass = 1e-4;
   const History known = accuracy_ < kOnePass && has_columns_ ? History::kColumns : History::kShape;
@@ -348,39 +331,12 @@ bool StaticsSolver::findTangent(const DeadLoads& loads, Backbone& backbone, Stat
 }
 
 bool StaticsSolver::isStable(const DeadLoads& loads, const Backbone& backbone, const StaticsReport& report) const {
-  // Of a neutral equilibrium rounding, or the error of discretisation, decides what is left of the compliance. So it
-  // must not be larger than that of the softest segment by more than leaves a digit.
-  const double neutral = std::min(1e7, 0.1 / (report.truncation + report.residual + report.iteration));
-  // Of a rod without elongation the compliance is singular, and rounding decides its sign. Beyond buckling the negative
-  // part is as large as the loads are small.
-  constexpr double kRounding = 1e-11;
-  const double translation = tangent_.topLeftCorner<3, 3>().trace();
-  const double rotation = tangent_.bottomRightCorner<3, 3>().trace();
-  if (!(translation > 0.0) || !(rotation < neutral * softness_)) return false;
-  return isPositiveDefinite(tangent_, kRounding * translation, kRounding * rotation) &&
+  return isTipStable(tangent_, softness_, report.truncation + report.residual + report.iteration) &&
          !(mayBuckle(loads, backbone) && hasConjugatePoint(backbone));
 }
 
-// False if the loads are so small that there is one equilibrium only: below 1, this bounds the ratio of load and buckling
-// load of the straight robot from above, by the trace of int |n| int c ds dl (exact for a soft hinge, 0.81 for a uniform
-// column under a tip load). A tip moment alone winds the rod up by half a turn before it has a choice.
 bool StaticsSolver::mayBuckle(const DeadLoads& loads, const Backbone& backbone) const {
-  Vector3 n = loads.baseForce(chain_);
-  double softness = 0.0, load_number = 0.0;  // of all before, rad / (N m)
-  for (const Chain::Part& part : chain_.parts) {
-    if (part.segment >= 0) {
-      const RestState& rest = backbone.rest[part.segment];
-      const double length = rest.stretch * part.length;
-      const double own = rest.c.bending_torsion.diagonal().maxCoeff() * length;
-      load_number += n.norm() * length * (softness + 0.5 * own);
-      softness += own;
-    } else {
-      load_number += n.norm() * part.length * softness;
-    }
-    n -= part.mass * loads.gravity;
-  }
-  load_number += n.norm() * chain_.tip_offset.norm() * softness + angular(loads.tip).norm() * softness / kPi;
-  return !(load_number < 1.0);
+  return !(loadNumber(chain_, loads, backbone) < 1.0);  // NaN, too
 }
 
 StaticsReport StaticsSolver::solve(const DeadLoads& loads, Backbone& backbone) {

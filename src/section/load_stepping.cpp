@@ -59,8 +59,8 @@ LoadStepper::LoadStepper(const CrossSection& section)
   }
 }
 
-// (12), (15), (30): increments with the compliance and chamber positions of the step before. In quantities times powers of
-// lam, so that a step waits for one division only.
+// (12), (15), (30): increments with the compliance and chamber positions of the step before. In quantities times powers
+// of lam, so that a step waits for one division only.
 RestState LoadStepper::fixedSteps(double force, const Eigen::Vector2d& moment, int steps) const {
   double stretch = 1.0, x = 0.0, y = 0.0;
   const double step = 1.0 / (steps * section_.youngsModulus()), pull = step * force;

@@ -182,7 +182,8 @@ HardTheme straightAndCurved() {
     theme.cases.push_back({name, truth, std::move(run)});
   };
   // Bent far, the quadrature of an element of 1.5 rad is good to about the 1e-14 that the estimate states; ten times
-  // that is its promise. Nearly straight, entry by entry, each relative to itself: a few units in the last place in closed form.
+  // that is its promise. Nearly straight, entry by entry, each relative to itself: a few units in the last place in
+  // closed form.
   add("nearly_straight", arcs, [=](HardOutcome& o) { nearlyStraight(o, none, 4e-15); });
   add("nearly_straight_solved", arcs, [=](HardOutcome& o) { nearlyStraight(o, kNegligible, 1e-12); });
   for (double n : {1.0, 2.0}) {

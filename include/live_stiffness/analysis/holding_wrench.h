@@ -25,9 +25,9 @@ struct HoldingWrench {
 // Newton's method on equilibria of the model: the stiffness, that is the inverse of the tangent compliance (of its
 // translational block for a pure force), turns what is left of the way into a change of wrench. It goes straight to the
 // goal, in legs of at most a fifth of the robot's length and of a radian, halved where it does not arrive. A dead
-// wrench follows the tip wherever that gives way; so the goal is not reached if the robot would buckle, topple or snap over
-// on the way there, even where a hand that guides the tip could hold it. pressures: Pa; wrench: acting already, as the
-// result. Starts cold. Afterwards workspace holds the equilibrium `held` if its status is ok.
+// wrench follows the tip wherever that gives way; so the goal is not reached if the robot would buckle, topple or snap
+// over on the way there, even where a hand that guides the tip could hold it. pressures: Pa; wrench: acting already, as
+// the result. Starts cold. Afterwards workspace holds the equilibrium `held` if its status is ok.
 HoldingWrench findHoldingWrench(const StiffnessModel& model, PressuresRef pressures, const Wrench& wrench,
                                 const HoldGoal& goal, StiffnessWorkspace& workspace);
 

@@ -1,5 +1,6 @@
 #pragma once
-// A chain and what acts on it as plain data, for code that is compiled for another instruction set (see element_state.h).
+// A chain and what acts on it as plain data, for code that is compiled for another instruction set (see
+// element_state.h).
 
 #include "live_stiffness/rod/element_state.h"
 

@@ -12,8 +12,9 @@ struct ElementPasses {
 
   // Starts the passes from the unloaded shape under a constant moment.
   void (*reset_guess)(ElementState&);
-  // Moves the guess g along with a change of rest curvature: by so much, rad, at the end. `steadiness`: how far the change goes on
-  // as the last one did, 1 if it is the same; 0 if nothing is known. The columns go on, too, if asked for.
+  // Moves the guess g along with a change of rest curvature: by so much, rad, at the end. `steadiness`: how far the
+  // change goes on as the last one did, 1 if it is the same; 0 if nothing is known. The columns go on, too, if asked
+  // for.
   void (*predict)(ElementState&, const double (&turn)[3], double steadiness, bool with_columns);
   // One fixed-point pass over the nodes, from g to g; then the end values, change and size.
   void (*pass)(ElementState&);
@@ -42,8 +43,8 @@ struct ElementPasses {
   void (*follow_all)(const ChainState&, const double (&base_moment_change)[3]);
   // See tipColumns().
   double (*columns)(const ChainState&, bool anew, double goal, bool with_defect, ElementColumns& tip);
-  // From the columns at the tip: inverse of the derivative of the residual with respect to the base moment, and the compliance of T
-  // under a dead wrench [f; m] at T; with their defect taken out if `correct`. 3x3 and 6x6,
+  // From the columns at the tip: inverse of the derivative of the residual with respect to the base moment, and the
+  // compliance of T under a dead wrench [f; m] at T; with their defect taken out if `correct`. 3x3 and 6x6,
   // column-major.
   void (*tangent)(const ElementColumns& tip, bool correct, double* inverse, double* compliance);
   // Material compliance of the whole chain about T, which is at p_tip, and of what is before each element; after the

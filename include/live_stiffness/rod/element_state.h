@@ -16,8 +16,8 @@ typedef double StageRow[kMaxStages + 1] __attribute__((aligned(64)));
 constexpr int kPackedSize = 21, kPackedRow = 24;
 typedef double PackedRow[kPackedRow] __attribute__((aligned(32)));
 
-// A row of ElementState::dense: density of compliance about the element's start, then tangent p', then rate of g; the rest
-// is not used.
+// A row of ElementState::dense: density of compliance about the element's start, then tangent p', then rate of g; the
+// rest is not used.
 constexpr int kDenseTangent = kPackedSize, kDenseRate = kDenseTangent + 3, kDenseRow = 28;
 
 struct ElementState {
@@ -85,8 +85,8 @@ struct ElementState {
 // hat(phi) R), position and moment. The first index is the column.
 struct ElementColumns {
   double phi[6][3], p[6][3], m[6][3];
-  // What the columns' own error does, so far along the chain: [i][j] is the work of the moment of column i on the turning
-  // that column j still misses. It corrects the compliance to second order in that error, see StaticsSolver.
+  // What the columns' own error does, so far along the chain: [i][j] is the work of the moment of column i on the
+  // turning that column j still misses. It corrects the compliance to second order in that error, see StaticsSolver.
   double defect[6][6];
 };
 

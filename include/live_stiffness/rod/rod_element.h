@@ -32,15 +32,15 @@ struct RodElement {
 // So that a vector of them is an array of states.
 static_assert(sizeof(RodElement) == sizeof(ElementState), "RodElement holds nothing but its state");
 
-// Integrates the element from its start values by fixed-point passes, from the guess that it holds or anew. Order 2 stages.
-// Returns false if the passes do not converge: the element is too long for its load or curvature.
+// Integrates the element from its start values by fixed-point passes, from the guess that it holds or anew. Order 2
+// stages. Returns false if the passes do not converge: the element is too long for its load or curvature.
 bool integrate(const ElementPasses& passes, bool anew, RodElement& element);
 
 // Carries columns from the start to the end of an integrated element, by passes until they change by less than `goal`,
 // relative, from the guess that it holds or anew:
 //   phi' = R c_bt R^T (dm - phi x m),  dp' = phi x p' + R c_se R^T (dn - phi x n),  dm' = -dp' x n - p' x dn,
-// dn the unit force of columns 3 to 5. Dead loads only. Returns what is estimated to be left, relative; infinity without
-// convergence.
+// dn the unit force of columns 3 to 5. Dead loads only. Returns what is estimated to be left, relative; infinity
+// without convergence.
 double propagate(const ElementPasses& passes, bool anew, RodElement& element, const ElementColumns& start, double goal,
                  ElementColumns& end);
 

@@ -23,8 +23,9 @@ enum class History {
 };
 
 // Gives the elements (as many as element_count says) their lengths, sections and loads, and lets the guess that they
-// hold follow the change of rest curvature; once before sweeps. Returns how far that change goes on as the last one did (1: the
-// same; -1: back again; 0 if it does not, or without history), by which shape and columns have been extrapolated.
+// hold follow the change of rest curvature; once before sweeps. Returns how far that change goes on as the last one did
+// (1: the same; -1: back again; 0 if it does not, or without history), by which shape and columns have been
+// extrapolated.
 double prepare(const Chain& chain, const DeadLoads& loads, Backbone& backbone, History history = History::kNone);
 
 // One sweep over all elements, from base to tip, under a base moment.

@@ -35,8 +35,8 @@ class StaticsSolver {
 
   // Solves from backbone.rest. Starts from the last solution unless reset() was called, else from the unloaded shape:
   // quick sweeps, which mend shape and base moment together; if they do not converge, damped Newton steps on converged
-  // shots. When that finds no stable equilibrium, or starts cold under loads that allow several, it is found by a branch
-  // search along the loads from zero. On success backbone holds the shape and the tangent can be read.
+  // shots. When that finds no stable equilibrium, or starts cold under loads that allow several, it is found by a
+  // branch search along the loads from zero. On success backbone holds the shape and the tangent can be read.
   //
   // A warm start stays on the branch of the last solution while that is stable, as the robot does, even where a cold
   // start would find another one: which of several stable shapes a robot is in depends on its past. To tell would take
