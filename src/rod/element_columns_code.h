@@ -93,8 +93,9 @@ struct Columns : Collocation<kStages> {
         store(e.phi[k], v, next);
       }
     }
-    const double a = sum(change[0]) / (sum(size[0]) + 1e-300), b = sum(change[1]) / (sum(size[1]) + 1e-300);
-    e.column_change = __builtin_sqrt(a + b);
+    double total[4];
+    sums({change[0], size[0], change[1], size[1]}, total);
+    e.column_change = __builtin_sqrt(total[0] / (total[1] + 1e-300) + total[2] / (total[3] + 1e-300));
   }
 
   static LIVE_STIFFNESS_INLINE void columnEnd(ElementState& e, const ElementColumns& start, const Lanes (&along)[18],
