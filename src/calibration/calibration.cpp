@@ -16,6 +16,8 @@ namespace {
 constexpr double kMostTurnError = 5.0;     // deg, and
 constexpr double kMostOffsetError = 5e-3;  // m: a registration known worse than this counts as not determined
 
+constexpr double kCoarse = 1e-5, kFine = 1e-9;  // relative change of the cost at which a search ends
+
 double median(std::vector<double> values) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   std::nth_element(values.begin(), values.begin() + static_cast<long>(values.size() / 2), values.end());
@@ -179,13 +181,13 @@ CalibrationResult calibrate(const Scene& scene, const ChannelMap& channels,
   CalibrationProblem problem(scene, channels, parameters, recordings, rows, options);
   CalibrationProblem::Sigmas sigmas{options.position_sigma, options.rotation_sigma};
   progress("fitting", 0, 3);
-  CalibrationProblem::Solution solution = problem.solve(problem.start(), sigmas, {}, false);
+  CalibrationProblem::Solution solution = problem.solve(problem.start(), sigmas, {}, kCoarse);
   for (int round = 1; round <= 2; ++round) {  // with the sigmas seen, and wrenches turned by the registration found
     progress("fitting", round, 3);
     sigmas = residualSigmas(problem, recordings.size(), solution, options);
     for (size_t n = 0; n < recordings.size(); ++n)
       problem.evaluator(n).updateWrenches(problem.evaluator(n).registration(solution.unknowns.registrations[n]));
-    solution = problem.solve(solution.unknowns, sigmas, {}, round == 2);
+    solution = problem.solve(solution.unknowns, sigmas, {}, round == 2 ? kFine : kCoarse, round == 2);
   }
   progress("fitting", 3, 3);
 
@@ -207,7 +209,7 @@ CalibrationResult calibrate(const Scene& scene, const ChannelMap& channels,
     RecordingFit& fit = result.recordings[n];
     for (int block = 0; block < blocks; ++block) {
       progress("leaving blocks out", done++, total);
-      const auto without = problem.solve(solution.unknowns, sigmas, {static_cast<int>(n), block, -1}, false);
+      const auto without = problem.solve(solution.unknowns, sigmas, {static_cast<int>(n), block, -1}, kCoarse);
       RecordingEvaluator& evaluator = problem.evaluator(n);
       const Registration registration = evaluator.registration(without.unknowns.registrations[n]);
       const std::vector<TipPrediction>* predictions = evaluator.at(without.unknowns.x.data(), false);
@@ -234,7 +236,7 @@ CalibrationResult calibrate(const Scene& scene, const ChannelMap& channels,
     fit.left_out = fit.predicted;
     if (blocks > 0) {
       progress("leaving blocks out", done++, total);
-      const auto without = problem.solve(solution.unknowns, sigmas, {-1, -1, static_cast<int>(row)}, false);
+      const auto without = problem.solve(solution.unknowns, sigmas, {-1, -1, static_cast<int>(row)}, kFine);
       if (!problem.rowCompliance(row, without.unknowns.x.data(), fit.left_out)) fit.left_out.setConstant(NAN);
     }
     fit.left_out_norm_error = std::abs(norm - fit.left_out.norm()) / norm;

@@ -326,7 +326,7 @@ CalibrationProblem::Solution CalibrationProblem::solve(const CalibrationUnknowns
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::DENSE_QR;
   solver.max_num_iterations = 60;
-  solver.function_tolerance = 1e-8;
+  solver.function_tolerance = tolerance;
   solver.parameter_tolerance = 1e-8;
   solver.logging_type = ceres::SILENT;
   solver.num_threads = 1;  // predictions are shared by all samples of a recording

@@ -75,7 +75,9 @@ class CalibrationProblem {
     Eigen::MatrixXd jacobian;  // of all whitened, robustified residuals without priors; columns x, then registrations
     Eigen::VectorXd residuals;
   };
-  Solution solve(const CalibrationUnknowns& start, const Sigmas& sigmas, const LeftOut& left_out, bool want_jacobian);
+  // tolerance: relative change of the cost at which the search ends.
+  Solution solve(const CalibrationUnknowns& start, const Sigmas& sigmas, const LeftOut& left_out, double tolerance,
+                 bool want_jacobian = false);
 
   CalibrationUnknowns start();
   Eigen::VectorXd values(const Eigen::VectorXd& x) const;  // SI

@@ -5,7 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 
-#include "calibration/rod_shot.h"
+#include "calibration/rod_columns.h"
 #include "live_stiffness/checks.h"
 #include "live_stiffness/estimation/creep.h"
 #include "section/load_stepping_code.h"
@@ -13,8 +13,6 @@
 namespace live_stiffness {
 namespace {
 
-constexpr int kSeeds = 12;               // numbers that a Jet can be seeded by
-constexpr int kParameters = kSeeds - 3;  // three are the base moment's; more parameters take more passes
 using Jet = ceres::Jet<double, kSeeds>;
 
 template <class T>
@@ -45,7 +43,7 @@ Eigen::Matrix<T, Eigen::Dynamic, 1> expand(const ChannelMap& map, const Eigen::M
   return chambers;
 }
 
-// Derivatives of `count` parameters from `first` on.
+// Derivatives by up to kSeededParameters parameters from `first` on; more parameters take more of these.
 class Differentiator {
  public:
   Differentiator(const Scene& scene, const ModelOptions& options, const ChannelMap& channels,
@@ -55,7 +53,7 @@ class Differentiator {
         channels_(channels),
         scene_(castScene<Jet>(scene)),
         first_(first),
-        count_(std::min<int>(kParameters, static_cast<int>(parameters.size()) - first)) {
+        count_(std::min<int>(kSeededParameters, static_cast<int>(parameters.size()) - first)) {
     for (int k = 0; k < static_cast<int>(parameters.size()); ++k) {
       Jet value(values[k]);
       if (k >= first && k < first + count_) value.v[3 + k - first] = 1.0;
@@ -78,28 +76,13 @@ class Differentiator {
       rest_.push_back(stepper.restState(chambers.segment(at, stepper.chamberCount()), options_.stepping, steps));
       at += stepper.chamberCount();
     }
-    const Vector3Of<Jet> moment(Jet(base_moment[0], 0), Jet(base_moment[1], 1), Jet(base_moment[2], 2));
-    const RodShot<Jet> shot = shootRod(scene_, rest_, moment, tip_wrench);
-
-    Matrix3 R;
-    for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c) R(r, c) = shot.R(r, c).a;
-    Eigen::Matrix<double, 6, kSeeds> twist;
-    Eigen::Matrix<double, 3, kSeeds> residual;
-    for (int s = 0; s < kSeeds; ++s) {
-      Matrix3 dR;
-      for (int r = 0; r < 3; ++r) {
-        twist(r, s) = shot.p[r].v[s];
-        residual(r, s) = shot.residual[r].v[s];
-        for (int c = 0; c < 3; ++c) dR(r, c) = shot.R(r, c).v[s];
-      }
-      const Matrix3 turn = dR * R.transpose();  // hat of the small rotation, to the shot's own error
-      twist.block<3, 1>(3, s) = 0.5 * Vector3(turn(2, 1) - turn(1, 2), turn(0, 2) - turn(2, 0), turn(1, 0) - turn(0, 1));
-    }
-    const Matrix3 inverse = residual.leftCols<3>().inverse();
-    for (int k = 0; k < count_; ++k)
-      prediction.derivative.col(first_ + k) =
-          twist.col(3 + k) - twist.leftCols<3>() * (inverse * residual.col(3 + k));
+    const TipColumns columns = tipColumns(scene_, rest_, base_moment, tip_wrench);
+    const Matrix3 inverse = columns.residual.leftCols<3>().inverse();
+    const SeedColumns d_moment = -inverse * columns.residual;  // of the base moment that keeps the residual at zero
+    const SeedColumns position = columns.position + columns.position.leftCols<3>() * d_moment;
+    const SeedColumns turn = columns.turn + columns.turn.leftCols<3>() * d_moment;
+    prediction.derivative.block(0, first_, 3, count_) = position.middleCols(3, count_);
+    prediction.derivative.block(3, first_, 3, count_) = turn.middleCols(3, count_);
   }
 
  private:
@@ -130,7 +113,7 @@ bool TipPredictor::predict(const Eigen::VectorXd& values, const std::vector<Actu
   const auto pressures = creptPressures(castScene<double>(scene), samples);
   const int parameter_count = static_cast<int>(parameters_.size());
   std::vector<Differentiator> differentiators;
-  for (int first = 0; derivatives && first < parameter_count; first += kParameters)
+  for (int first = 0; derivatives && first < parameter_count; first += kSeededParameters)
     differentiators.emplace_back(scene_, options_, channels_, parameters_, values, first, samples);
   predictions.resize(samples.size());
   for (size_t i = 0; i < samples.size(); ++i) {

@@ -72,8 +72,9 @@ void expectDerivativesAgree(const Scene& scene, Stepping stepping, bool external
       Vector6 difference;
       difference << above[i].X_BT.p - below[i].X_BT.p, logSo3(above[i].X_BT.R * below[i].X_BT.R.transpose());
       const Vector6 derivative = predictions[i].derivative.col(static_cast<long>(k)) * (2.0 * step);
-      // 1e-4: the shot's own error (ten Runge-Kutta steps a segment); 1e-9: rounding of the difference, m and rad.
-      EXPECT_LT((derivative - difference).norm(), 1e-4 * difference.norm() + 1e-9)
+      // 1e-3: the linearised rod's own error (five Runge-Kutta steps a segment), enough for a least-squares step; 1e-9:
+      // rounding of the difference, m and rad.
+      EXPECT_LT((derivative - difference).norm(), 1e-3 * difference.norm() + 1e-9)
           << parameters[k].name << ", sample " << i << "\n" << derivative.transpose() << "\n" << difference.transpose();
     }
   }
