@@ -274,7 +274,8 @@ CalibrationUnknowns CalibrationProblem::start() {
 }
 
 CalibrationProblem::Solution CalibrationProblem::solve(const CalibrationUnknowns& start, const Sigmas& sigmas,
-                                                       const LeftOut& left_out, bool want_jacobian) {
+                                                       const LeftOut& left_out, double tolerance,
+                                                       bool want_jacobian) {
   Solution solution;
   CalibrationUnknowns& unknowns = solution.unknowns;
   unknowns = start;
