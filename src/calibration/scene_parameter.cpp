@@ -29,7 +29,7 @@ constexpr Known kKnown[] = {
     {"gent_limit", ParameterKind::kGentLimit, 1.0, 0.0, 0.1, 1e4, 1.0},
     {"yeoh_c2", ParameterKind::kYeohC2, 0.0, 0.5, -2.0, 10.0, 1.0},
     {"yeoh_c3", ParameterKind::kYeohC3, 0.0, 0.5, -2.0, 10.0, 1.0},
-    {"pressure_stiffening", ParameterKind::kPressureStiffening, 0.0, 1.0, -5.0, 10.0, 1.0},
+    {"pressure_stiffening", ParameterKind::kPressureStiffening, 0.0, 1.0, 0.0, 10.0, 1.0},
     {"creep_share", ParameterKind::kCreepShare, 0.0, 0.1, 0.0, 0.5, 1.0},
     {"creep_time_s", ParameterKind::kCreepTime, 1.0, 1.0, 0.2, 60.0, 1.0},
     {"tip_mass_kg", ParameterKind::kTipMass, 0.2, 1e-3, 0.0, 10.0, 1.0},

@@ -40,7 +40,7 @@ void readPressurised(YamlMap& map, CrossSection& section) {
   readStretchLaw(map, section.material);
   section.chambers.area_growth =
       map.number("chamber_area_growth_per_pa", {-kMostAreaGrowth, kMostAreaGrowth}, 0.0);
-  section.material.pressure_stiffening = map.number("pressure_stiffening", {-10.0, 10.0}, 0.0);
+  section.material.pressure_stiffening = map.number("pressure_stiffening", {0.0, 10.0}, 0.0);
   section.material.creep_share = map.number("creep_share", {0.0, 0.9}, 0.0);
   section.material.creep_time = map.number("creep_time_s", Range::positive(), 1.0);
 }

@@ -32,7 +32,7 @@ struct MaterialOf {
   T yeoh_c2 = T(0.0);     // C_20 / C_10, - (kYeoh)
   T yeoh_c3 = T(0.0);     // C_30 / C_10, - (kYeoh)
   // b, -: pressure P in chamber k adds the axial stiffness b P A_P at the chamber's centre. Shi et al. section 6.2: "the
-  // pressurised chambers may stiffen the robot to some extent". Negative: it softens.
+  // pressurised chambers may stiffen the robot to some extent". Not negative.
   T pressure_stiffening = T(0.0);
   // One exponential creep mode: the share of the pressures' effect that comes late, and its time constant. The model
   // itself is static; see estimation/creep.h. Share 0: no creep.
