@@ -50,7 +50,8 @@ const std::vector<std::string> kNames{"youngs_modulus_pa", "length_m", "chamber_
                                       "creep_time_s"};
 
 void expectRecovered(const CalibrationResult& result, double most_errors) {
-  const Segment& segment = segmentOf(truth(), 0);
+  Scene known = truth();
+  const Segment& segment = segmentOf(known, 0);
   const double expected[] = {segment.section.youngs_modulus, segment.length, segment.section.chambers.pitch_radius, 0.1,
                              2.0};
   for (size_t k = 0; k < result.parameters.size(); ++k) {
