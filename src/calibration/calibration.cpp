@@ -152,7 +152,7 @@ Wrench ForceSensorMount::atTip(const Wrench& reading, const Matrix3& R_BT) const
   return wrench;
 }
 
-CalibrationRecording::CalibrationRecording(Recording given, SampleChoice choice, bool with_loads)
+CalibrationRecording::CalibrationRecording(Recording given, SampleChoice choice, LoadedSamples loads)
     : recording(std::move(given)), channels(gaugePressures(recording)) {
   used.assign(recording.samples.size(), choice == SampleChoice::kAll);
   loaded.assign(recording.samples.size(), false);
@@ -160,8 +160,8 @@ CalibrationRecording::CalibrationRecording(Recording given, SampleChoice choice,
     for (int i : quasiStaticSamples(recording)) used[static_cast<size_t>(i)] = true;
   for (size_t i = 0; i < used.size(); ++i) {
     if (isUnloaded(recording.samples[i])) continue;
-    if (with_loads) loaded[i] = true;
-    else used[i] = false;
+    loaded[i] = loads != LoadedSamples::kIgnore;
+    used[i] = used[i] && loads == LoadedSamples::kFit;
   }
   long unloaded = 0;
   for (size_t i = 0; i < used.size(); ++i) unloaded += used[i] && !loaded[i];

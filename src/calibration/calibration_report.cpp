@@ -123,4 +123,23 @@ std::string residualTable(const CalibrationResult& result, const std::vector<Cal
   return out.str();
 }
 
+std::string complianceTableOf(const CalibrationResult& result) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(9);
+  out << "row,norm_error,matrix_error,left_out_norm_error,left_out_matrix_error";
+  for (const char* which : {"measured", "predicted", "left_out"})
+    for (int j = 1; j <= 3; ++j)
+      for (int i = 1; i <= 3; ++i) out << "," << which << "_c" << i << j << "_m_per_n";
+  out << "\n";
+  for (const ComplianceFit& fit : result.rows) {
+    out << fit.name << "," << fit.norm_error << "," << fit.matrix_error << "," << fit.left_out_norm_error << ","
+        << fit.left_out_matrix_error;
+    for (const Matrix3* C : {&fit.measured, &fit.predicted, &fit.left_out})
+      for (int k = 0; k < 9; ++k) out << "," << (*C)(k);
+    out << "\n";
+  }
+  return out.str();
+}
+
 }  // namespace live_stiffness

@@ -2,20 +2,18 @@
 // to tables of measured compliance. Needs no ROS; built with it, it reads bags too.
 
 #include <boost/program_options.hpp>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <optional>
 
+#include "any_recording.h"
 #include "live_stiffness/calibration/calibration.h"
 #include "live_stiffness/calibration/calibration_report.h"
 #include "live_stiffness/calibration/scene_text.h"
 #include "live_stiffness/checks.h"
 #include "live_stiffness/rod/scene_file.h"
 #include "progress_bar.h"
-#ifdef LIVE_STIFFNESS_WITH_ROS
-#include "live_stiffness/ros/recorded_bag.h"
-#endif
 
 namespace po = boost::program_options;
 using namespace live_stiffness;
@@ -31,14 +29,14 @@ const char* const kHelp =
     "`--parameters none` registers only. `--list` prints the parameters that the scene has.\n\n";
 
 struct Arguments {
-  std::string scene, output, registration, residuals, model, stepping, samples = "all";
+  std::string scene, output, registration, residuals, model, stepping, samples = "all", loads = "ignore", rows;
   std::vector<std::string> recordings, tables, parameters{"youngs_modulus_pa", "chamber_pitch_radius_m", "length_m"};
   std::vector<std::string> priors, bounds;
   int channels = 0;
   double position_mm = 0.5, rotation_deg = 1.0, compliance = 0.05, correlation = 1.0, huber = 2.0, accuracy = 1e-9;
   double sensor_azimuth_deg = 0.0, sensor_height = 0.0, sensor_sign = 1.0;
   int blocks = 8;
-  bool no_orientation = false, no_priors = false, with_loads = false, list = false, quiet = false;
+  bool no_orientation = false, no_priors = false, list = false, quiet = false;
 };
 
 po::options_description describe(Arguments& a) {
@@ -55,7 +53,8 @@ po::options_description describe(Arguments& a) {
     ("bounds", po::value(&a.bounds)->composing(), "NAME=LOW:HIGH, in the parameter's unit")
     ("no-priors", po::bool_switch(&a.no_priors), "let the data decide alone, within the bounds")
     ("samples", po::value(&a.samples)->default_value(a.samples), "all, or quasi_static")
-    ("with-loads", po::bool_switch(&a.with_loads), "use samples under contact too, with the force sensor's wrench")
+    ("loads", po::value(&a.loads)->default_value(a.loads),
+     "samples under contact: ignore; predict (with the force sensor's wrench, not fitted); or fit")
     ("force-sensor-azimuth-deg", po::value(&a.sensor_azimuth_deg)->default_value(0.0), "turn of the sensor about z of T")
     ("force-sensor-height-m", po::value(&a.sensor_height)->default_value(0.0), "its origin above T")
     ("force-sensor-sign", po::value(&a.sensor_sign)->default_value(1.0), "1: reports what acts on the robot; -1: the opposite")
@@ -72,6 +71,7 @@ po::options_description describe(Arguments& a) {
     ("output,o", po::value(&a.output), "write the calibrated scene here")
     ("registration", po::value(&a.registration), "write the first recording's registration here (the node loads it)")
     ("residuals", po::value(&a.residuals), "write a CSV of residuals here, for scripts/plot_calibration")
+    ("rows", po::value(&a.rows), "write a CSV of the compliance tables' rows here, measured, fitted and left out")
     ("quiet,q", po::bool_switch(&a.quiet), "no progress display");
   return options;
 }
@@ -97,14 +97,11 @@ void readPair(const std::string& text, const std::string& option, std::vector<Sc
   }
 }
 
-Recording load(const std::string& path) {
-  const std::string extension = std::filesystem::path(path).extension().string();
-  if (extension != ".bag") return loadRecording(path);
-#ifdef LIVE_STIFFNESS_WITH_ROS
-  return loadRecordedBag(path);
-#else
-  throw ConfigurationError("recording " + path, {"this build reads no bags: build it with ROS (-DWITH_ROS=ON)"});
-#endif
+std::optional<LoadedSamples> loadsNamed(const std::string& name) {
+  if (name == "ignore") return LoadedSamples::kIgnore;
+  if (name == "predict") return LoadedSamples::kPredict;
+  if (name == "fit") return LoadedSamples::kFit;
+  return std::nullopt;
 }
 
 void write(const std::string& path, const std::string& text) {
@@ -132,6 +129,8 @@ int run(const Arguments& a, const std::string& command) {
   faults.check("correlation-time-s", a.correlation, Range::nonnegative());
   faults.check("huber", a.huber, Range::positive());
   faults.check("blocks", a.blocks, {0.0, 1000.0});
+  const auto loads = loadsNamed(a.loads);
+  if (!loads) faults.add("loads '" + a.loads + "': must be ignore, predict or fit");
   if (a.sensor_sign != 1.0 && a.sensor_sign != -1.0) faults.add("force-sensor-sign: must be 1 or -1");
   if (a.recordings.empty() && a.tables.empty() && !a.list) faults.add("give recordings, or compliance tables, or both");
   faults.throwIfAny();
@@ -146,10 +145,9 @@ int run(const Arguments& a, const std::string& command) {
 
   std::vector<CalibrationRecording> recordings;
   for (const std::string& path : a.recordings) {
-    Recording recording = load(path);
-    for (const std::string& warning : recording.warnings) std::cerr << path << ": " << warning << '\n';
+    Recording recording = loadAnyRecording(path);
     recordings.emplace_back(std::move(recording),
-                            a.samples == "all" ? SampleChoice::kAll : SampleChoice::kQuasiStatic, a.with_loads);
+                            a.samples == "all" ? SampleChoice::kAll : SampleChoice::kQuasiStatic, *loads);
   }
   const ChannelMap channels = channelsFor(a, recordings, scene.chamberCount());
   std::vector<SceneParameter> parameters;
@@ -187,6 +185,7 @@ int run(const Arguments& a, const std::string& command) {
   if (!a.registration.empty() && !recordings.empty())
     saveRegistrationFile(a.registration, result.recordings.front().registration, header);
   if (!a.residuals.empty()) write(a.residuals, residualTable(result, recordings));
+  if (!a.rows.empty()) write(a.rows, complianceTableOf(result));
   return result.converged ? kExitOk : kExitNotConverged;
 }
 

@@ -34,7 +34,7 @@ CalibrationOptions whiteNoise() {
   return options;
 }
 
-CalibrationRecording use(Recording recording) { return {std::move(recording), SampleChoice::kAll, false}; }
+CalibrationRecording use(Recording recording) { return {std::move(recording), SampleChoice::kAll, LoadedSamples::kIgnore}; }
 
 // Truth: 20 % stiffer, 2 mm longer, a pitch radius 0.2 mm larger, and creep, recorded with a fine model of its own.
 Scene truth() {
@@ -176,7 +176,7 @@ TEST(Calibration, UsesTheForceSensorOfSamplesUnderContact) {
   }
   CalibrationOptions options = whiteNoise();
   options.force_sensor = mount;
-  const CalibrationRecording data(pushed, SampleChoice::kAll, true);
+  const CalibrationRecording data(pushed, SampleChoice::kAll, LoadedSamples::kFit);
   const CalibrationResult with = calibrate(arm(), kPairs, {}, {data}, {}, options);
   EXPECT_LT(with.recordings[0].used.max, 1e-5);  // exact but for the wrench's last turn
   options.force_sensor.sign = 1.0;
@@ -196,7 +196,7 @@ TEST(ForceSensorMount, CarriesTheWrenchToTheTipInBaseAxes) {
 TEST(Calibration, RefusesWhatDoesNotFit) {
   EXPECT_THROW(sceneParameter("gent_limit", arm(), kPairs), ConfigurationError);
   EXPECT_THROW(sceneParameter("colour", arm(), kPairs), ConfigurationError);
-  EXPECT_THROW(CalibrationRecording(Recording{"short", false, {RecordedSample()}, {}}, SampleChoice::kAll, false),
+  EXPECT_THROW(CalibrationRecording(Recording{"short", false, {RecordedSample()}, {}}, SampleChoice::kAll, LoadedSamples::kIgnore),
                ConfigurationError);
   Scene without = arm();
   segmentOf(without, 0).section.youngs_modulus = 1e3;  // so soft that its own pressures burst it

@@ -33,14 +33,18 @@ struct ForceSensorMount {
 
 enum class SampleChoice { kAll, kQuasiStatic };
 
+// What becomes of samples under contact (not isUnloaded): left out and predicted without the force; left out of the fit
+// but predicted with the sensor's wrench; or fitted with it.
+enum class LoadedSamples { kIgnore, kPredict, kFit };
+
 struct CalibrationRecording {
   Recording recording;
   std::vector<Pressures> channels;  // gauge, one per sample
   std::vector<bool> used;           // per sample: takes part in the fit
   std::vector<bool> loaded;         // per sample: the force sensor's wrench acts on the model
 
-  // Samples chosen as asked; those under contact (isUnloaded) take part only with_loads.
-  CalibrationRecording(Recording recording, SampleChoice choice, bool with_loads);
+  // Throws ConfigurationError when fewer than three unloaded samples of the kind are left.
+  CalibrationRecording(Recording recording, SampleChoice choice, LoadedSamples loads);
 };
 
 struct CalibrationOptions {
