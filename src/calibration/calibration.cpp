@@ -16,7 +16,7 @@ namespace {
 constexpr double kMostTurnError = 5.0;     // deg, and
 constexpr double kMostOffsetError = 5e-3;  // m: a registration known worse than this counts as not determined
 
-constexpr double kCoarse = 1e-5, kFine = 1e-9;  // relative change of the cost at which a search ends
+constexpr double kCoarse = 1e-4, kFine = 1e-7;  // relative change of the cost at which a search ends
 
 double median(std::vector<double> values) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();

@@ -1,6 +1,7 @@
 #include "calibration/calibration_problem.h"
 
 #include <ceres/ceres.h>
+#include <ceres/version.h>
 
 #include <algorithm>
 #include <cmath>
@@ -152,6 +153,42 @@ class PriorCost : public ceres::CostFunction {
   std::vector<int> entries_;
   std::vector<double> means_, sigmas_;
 };
+
+// Holds these entries of the parameters' block where they are, and frees the others.
+void hold(ceres::Problem& problem, double* x, int count, const std::vector<int>& entries) {
+  if (static_cast<int>(entries.size()) == count) {
+    problem.SetParameterBlockConstant(x);
+    return;
+  }
+  problem.SetParameterBlockVariable(x);
+#if CERES_VERSION_MAJOR > 2 || (CERES_VERSION_MAJOR == 2 && CERES_VERSION_MINOR >= 1)
+  problem.SetManifold(x, entries.empty() ? nullptr : new ceres::SubsetManifold(count, entries));
+#else
+  problem.SetParameterization(x, new ceres::SubsetParameterization(count, entries));
+#endif
+}
+
+// Entries at a bound of theirs, beyond which the cost would fall.
+std::vector<int> pressedAgainstBounds(ceres::Problem& problem, const Eigen::VectorXd& x,
+                                      const std::vector<SceneParameter>& parameters) {
+  ceres::Problem::EvaluateOptions options;
+  options.parameter_blocks = {const_cast<double*>(x.data())};
+  options.num_threads = 1;
+  const int count = static_cast<int>(x.size());
+  hold(problem, const_cast<double*>(x.data()), count, {});
+  double cost = 0.0;
+  std::vector<double> gradient;
+  std::vector<int> pressed;
+  if (!problem.Evaluate(options, &cost, nullptr, &gradient, nullptr)) return pressed;
+  for (int k = 0; k < count; ++k) {
+    const SceneParameter& p = parameters[static_cast<size_t>(k)];
+    const double value = p.start + p.prior_sigma * x[k], near = 1e-9 * (p.high - p.low);
+    if ((value < p.low + near && gradient[static_cast<size_t>(k)] > 0.0) ||
+        (value > p.high - near && gradient[static_cast<size_t>(k)] < 0.0))
+      pressed.push_back(k);
+  }
+  return pressed;
+}
 
 double sampleTime(const Recording& recording) {
   const size_t count = recording.samples.size();
@@ -326,18 +363,29 @@ CalibrationProblem::Solution CalibrationProblem::solve(const CalibrationUnknowns
 
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::DENSE_QR;
-  solver.max_num_iterations = 60;
   solver.function_tolerance = tolerance;
   solver.parameter_tolerance = 1e-8;
+  solver.max_num_line_search_step_size_iterations = 4;
   solver.logging_type = ceres::SILENT;
   solver.num_threads = 1;  // predictions are shared by all samples of a recording
-  if (problem.NumParameterBlocks() > 0) {
+  // Ceres creeps along a bound; so what has run into one, with the cost falling beyond, is held there and the search goes on.
+  const int most = tolerance > 1e-6 ? 12 : 40;
+  std::vector<int> held = count > 0 ? pressedAgainstBounds(problem, unknowns.x, parameters_) : std::vector<int>();
+  for (int attempt = 0; attempt < 4 && problem.NumParameterBlocks() > 0; ++attempt) {
+    if (count > 0) hold(problem, unknowns.x.data(), count, held);
+    solver.max_num_iterations = attempt == 0 && held.empty() ? 8 : most;
     ceres::Solver::Summary summary;
     ceres::Solve(solver, &problem, &summary);
     solution.converged = summary.termination_type == ceres::CONVERGENCE;
     solution.message = summary.message;
-    solution.iterations = static_cast<int>(summary.iterations.size());
+    solution.iterations += static_cast<int>(summary.iterations.size());
+    if (summary.termination_type == ceres::FAILURE) break;
+    const std::vector<int> pressed =
+        count > 0 ? pressedAgainstBounds(problem, unknowns.x, parameters_) : std::vector<int>();
+    if (solution.converged && pressed == held) break;
+    held = pressed;
   }
+  if (count > 0) hold(problem, unknowns.x.data(), count, {});
   if (!want_jacobian) return solution;
 
   ceres::Problem::EvaluateOptions evaluate;

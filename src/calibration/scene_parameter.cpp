@@ -121,12 +121,20 @@ SceneParameter sceneParameter(const std::string& name, const Scene& scene, const
     parameter.low = known.low;
     parameter.high = known.high;
     parameter.unit = known.unit;
-    // What a chamber or pitch radius may be is bounded by the tube around it.
+    // What a chamber or pitch radius may be is bounded by the tube around it; a micrometre short of it, so that a value at
+    // its bound still reads back as legal.
+    constexpr double kMargin = 1e-6;
     const CrossSection& section = firstSegment(scene).section;
-    if (known.kind == ParameterKind::kPitchRadius) parameter.high = section.outer_radius - section.chambers.radius;
-    if (known.kind == ParameterKind::kPitchRadius) parameter.low = section.lumen_radius + section.chambers.radius;
-    if (known.kind == ParameterKind::kChamberRadius) parameter.high = 1.3 * section.chambers.radius;
-    if (known.kind == ParameterKind::kChamberRadius) parameter.low = 0.7 * section.chambers.radius;
+    const double inner = section.lumen_radius, outer = section.outer_radius;
+    const double pitch = section.chambers.pitch_radius, radius = section.chambers.radius;
+    if (known.kind == ParameterKind::kPitchRadius) {
+      parameter.low = inner + radius + kMargin;
+      parameter.high = outer - radius - kMargin;
+    }
+    if (known.kind == ParameterKind::kChamberRadius) {
+      parameter.low = 0.5 * radius;
+      parameter.high = std::min(pitch - inner, outer - pitch) - kMargin;
+    }
   }
   parameter.prior_mean = parameter.start;
   return parameter;

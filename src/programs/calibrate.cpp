@@ -181,7 +181,10 @@ int run(const Arguments& a, const std::string& command) {
   const CalibrationResult result = calibrate(scene, channels, parameters, recordings, rows, options);
   std::cout << reportText(result);
   const std::string header = sceneHeader(result, command);
-  if (!a.output.empty()) saveSceneFile(a.output, result.scene, header);
+  if (!a.output.empty()) {
+    saveSceneFile(a.output, result.scene, header);
+    loadSceneFile(a.output);  // refuses parameters that are legal alone and do not fit together
+  }
   if (!a.registration.empty() && !recordings.empty())
     saveRegistrationFile(a.registration, result.recordings.front().registration, header);
   if (!a.residuals.empty()) write(a.residuals, residualTable(result, recordings));

@@ -184,8 +184,10 @@ RestStateOf<T> LoadStepperOf<T>::continuousMaterialSteps(const Actuation& on) co
     for (int pass = 0; pass < kMostPasses && (settled < 0 || pass <= settled + kPassesMore); ++pass) {
       for (int i = 0; i < kNodes; ++i) {
         const ChamberStiffnessOf<T> pressurised = on.share((panel + table.c[i]) / kPanels);
-        if (!section_.isValidAt(stretch[i], pressurised)) return load_stepping::outOfRange(stretch[i]);
-        rate[i] = on.force / (static_cast<double>(kPanels) * section_.axialStiffness(stretch[i], pressurised));
+        const T stiffness = section_.axialStiffness(stretch[i], pressurised);
+        if (!(stretch[i] > 0.0 && section_.area(stretch[i]) > 0.0 && stiffness > 0.0))
+          return load_stepping::outOfRange(stretch[i]);
+        rate[i] = on.force / (static_cast<double>(kPanels) * stiffness);
       }
       bool moved = false;
       for (int i = 0; i < kNodes; ++i) {
@@ -199,6 +201,7 @@ RestStateOf<T> LoadStepperOf<T>::continuousMaterialSteps(const Actuation& on) co
     }
     for (int i = 0; i < kNodes; ++i) {
       const ChamberStiffnessOf<T> pressurised = on.share((panel + table.c[i]) / kPanels);
+      if (!section_.isValidAt(stretch[i], pressurised)) return load_stepping::outOfRange(stretch[i]);
       const Matrix2Of<T> softness = SectionMomentsOf<T>::inverse(section_.bendingStiffness(stretch[i], pressurised));
       curvature += (softness * on.moment) * T(table.b[i] / (static_cast<double>(kPanels) * sqrt(stretch[i])));
       log_stretch += table.b[i] * rate[i];
