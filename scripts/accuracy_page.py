@@ -105,6 +105,7 @@ class Report:
             text = file.read()
         for folder in (os.path.dirname(recording), self.fitter.folder):
             text = text.replace(folder + "/", "")
+        text = re.sub(r"^(# converged); .* s$", r"\1", text, 1, re.M)  # how long it took differs from run to run
         with open(self.fitter.path("stiff_flop_calibrated.yaml"), "w") as file:
             file.write(text)
 
