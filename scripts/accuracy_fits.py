@@ -113,3 +113,12 @@ class Samples:
         self.quiet = [not d and f < 0.06 for d, f in zip(dropped, self.force)]
         self.loaded = [f >= 0.06 for f in self.force]
         self.all = [True] * len(rows)
+
+    def displacement(self, pair, start, end):
+        """Of the tip, mm, from the mean before 3 s to the mean over a span, and the pair's gauge pressure there, bar."""
+        def mean(key, first, last):
+            values = [row[key] for row in self.rows if first <= row["time_s"] < last]
+            return sum(values) / len(values)
+        pressure = "pressure_%d_pa_abs" % pair
+        moved = [mean("tip_%s_m" % axis, start, end) - mean("tip_%s_m" % axis, 0.0, 3.0) for axis in "xyz"]
+        return 1e3 * math.hypot(*moved), 1e-5 * (mean(pressure, start, end) - mean(pressure, 0.0, 0.5))

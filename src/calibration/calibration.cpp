@@ -58,7 +58,8 @@ CalibrationProblem::Sigmas residualSigmas(CalibrationProblem& problem, size_t re
           options.rotation_sigma > 0.0 ? std::max(median(rotations) / kMedianLength, kLeastRotation) : 0.0};
 }
 
-// Inverse of a symmetric matrix that may be singular, by eigenvalues; directions without information get a huge variance.
+// Inverse of a symmetric matrix that may be singular, by eigenvalues; directions without information get a huge
+// variance.
 Eigen::MatrixXd inverseInformation(const Eigen::MatrixXd& information) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(information);
   const double least = 1e-12 * std::max(1.0, eigen.eigenvalues().cwiseAbs().maxCoeff());

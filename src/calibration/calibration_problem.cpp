@@ -17,7 +17,8 @@ constexpr double kOffsetSigma = 0.03;  // prior of the sensor's offset from T, p
 Eigen::VectorXd valuesAt(const std::vector<SceneParameter>& parameters, const double* x) {
   Eigen::VectorXd values(static_cast<long>(parameters.size()));
   for (size_t k = 0; k < parameters.size(); ++k)
-    values[static_cast<long>(k)] = parameters[k].start + parameters[k].prior_sigma * x[k];
+    values[static_cast<long>(k)] =  // rounding must not carry a mass of zero below zero
+        std::clamp(parameters[k].start + parameters[k].prior_sigma * x[k], parameters[k].low, parameters[k].high);
   return values;
 }
 
@@ -88,7 +89,8 @@ class SampleCost : public ceres::CostFunction {
 };
 
 // One row of a compliance table: its nine entries, and its norm, which is what (42) compares. Derivatives by central
-// differences of solves to 1e-12: a table has a handful of rows, so all of it costs less than one recording's millisecond.
+// differences of solves to 1e-12: a table has a handful of rows, so all of it costs less than one recording's
+// millisecond.
 class RowCost : public ceres::CostFunction {
  public:
   RowCost(const CalibrationProblem& problem, size_t row, const Matrix3& measured, double sigma, int parameters)
@@ -368,7 +370,8 @@ CalibrationProblem::Solution CalibrationProblem::solve(const CalibrationUnknowns
   solver.max_num_line_search_step_size_iterations = 4;
   solver.logging_type = ceres::SILENT;
   solver.num_threads = 1;  // predictions are shared by all samples of a recording
-  // Ceres creeps along a bound; so what has run into one, with the cost falling beyond, is held there and the search goes on.
+  // Ceres creeps along a bound; so what has run into one, with the cost falling beyond, is held there and the search
+  // goes on.
   const int most = tolerance > 1e-6 ? 12 : 40;
   std::vector<int> held = count > 0 ? pressedAgainstBounds(problem, unknowns.x, parameters_) : std::vector<int>();
   for (int attempt = 0; attempt < 4 && problem.NumParameterBlocks() > 0; ++attempt) {

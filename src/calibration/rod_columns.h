@@ -21,11 +21,12 @@ struct TipColumns {
   SeedColumns residual;  // of the moment left over at T
 };
 
-// T: a number with kSeeds derivatives, Jet::a and Jet::v, the last kSeededParameters of them by parameters. rest: one per
-// segment. base_moment: of the equilibrium, N m. tip: dead wrench at T, base axes. Columns 0 to 2 are by the base moment.
+// T: a number with kSeeds derivatives, Jet::a and Jet::v, the last kSeededParameters of them by parameters. rest: one
+// per segment. base_moment: of the equilibrium, N m. tip: dead wrench at T, base axes. Columns 0 to 2 are by the base
+// moment.
 //
-// Along the shape, shot from the base moment with five Runge-Kutta steps a segment (derivatives to some 1e-4), with delta R =
-// hat(turn) R and everything per fraction x of the stretched length l:
+// Along the shape, shot from the base moment with five Runge-Kutta steps a segment (derivatives to some 1e-4), with
+// delta R = hat(turn) R and everything per fraction x of the stretched length l:
 //   turn' = R delta(l u),  delta p' = turn x p' + R delta(l v),  delta m' = n x delta p' + delta n x p',
 //   delta v = delta c_se R^T n + c_se R^T (delta n - turn x n), and u alike with u_rest, c_bt and m.
 template <class T>

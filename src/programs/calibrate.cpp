@@ -1,5 +1,5 @@
-// calibrate SCENE.yaml RECORDING...: fits chosen parameters of a scene, and where base and sensor are, to recordings and
-// to tables of measured compliance. Needs no ROS; built with it, it reads bags too.
+// calibrate SCENE.yaml RECORDING...: fits chosen parameters of a scene, and where base and sensor are, to recordings
+// and to tables of measured compliance. Needs no ROS; built with it, it reads bags too.
 
 #include <boost/program_options.hpp>
 #include <fstream>

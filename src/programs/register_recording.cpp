@@ -1,5 +1,5 @@
-// register_recording SCENE.yaml RECORDING OUT.yaml: where the base stands in the tracker's frame and where the sensor sits on
-// the tip, from a recording, with residuals and a verdict whether the data determine it.
+// register_recording SCENE.yaml RECORDING OUT.yaml: where the base stands in the tracker's frame and where the sensor
+// sits on the tip, from a recording, with residuals and a verdict whether the data determine it.
 
 #include <boost/program_options.hpp>
 #include <iostream>

@@ -6,8 +6,9 @@
 //   + sum over rows of compliance tables  |C - C_measured|^2 / (sigma_C |C_measured|)^2 + (norms alike)
 //   + sum over parameters ((theta - prior mean) / prior sigma)^2                within the parameters' bounds,
 // rho Huber's loss. Neighbouring samples share their model error (creep, a plateau), so that only one in `correlation`
-// = correlation time / sample time counts: without that 1000 samples would drown any prior, and standard errors would be
-// far too small. sigma_p and sigma_r are estimated from the residuals of a first fit (medians), then the fit is repeated.
+// = correlation time / sample time counts: without that 1000 samples would drown any prior, and standard errors would
+// be far too small. sigma_p and sigma_r are estimated from the residuals of a first fit (medians), then the fit is
+// repeated.
 
 #include <functional>
 #include <string>
@@ -21,8 +22,8 @@
 
 namespace live_stiffness {
 
-// How the force sensor sits on the tip: its axes F turned about z of T, its origin on that axis, and the sense of what it
-// reports.
+// How the force sensor sits on the tip: its axes F turned about z of T, its origin on that axis, and the sense of
+// what it reports.
 struct ForceSensorMount {
   double azimuth = 0.0;  // rad
   double height = 0.0;   // of its origin above T along z of T, m

@@ -1,5 +1,6 @@
 #pragma once
-// Measured compliances of a robot, as in Tables 5 and 6 of Shi et al.: chamber pressures and the 3x3 block of translation.
+// Measured compliances of a robot, as in Tables 5 and 6 of Shi et al.: chamber pressures and the 3x3 block of
+// translation.
 
 #include <string>
 #include <vector>

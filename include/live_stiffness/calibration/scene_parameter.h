@@ -27,9 +27,10 @@ struct SceneParameter {
   double unit = 1.0;         // SI value of one unit of `name`
 };
 
-// Parameter of a name for a scene, with its default prior and bounds; `segment` values are those of the first segment, and
-// a calibrated value is given to all of them. Throws ConfigurationError with the legal names on an unknown one, or one
-// that this scene does not have (a Gent limit without that law, a link's mass without a link, no such channel).
+// Parameter of a name for a scene, with its default prior and bounds; `segment` values are those of the first
+// segment, and a calibrated value is given to all of them. Throws ConfigurationError with the legal names on an
+// unknown one, or one that this scene does not have (a Gent limit without that law, a link's mass without a link, no
+// such channel).
 SceneParameter sceneParameter(const std::string& name, const Scene& scene, const ChannelMap& channels);
 
 // All names that this scene has.

@@ -29,9 +29,9 @@ class TipPredictor {
   // Predictions at these parameter values (SI), one per sample; those not wanted are left alone. False as soon as one
   // sample has no solution, with the reason in failure().
   //
-  // The equilibrium is the solver's. Derivatives: material, load steps, creep and masses by automatic differentiation, the
-  // linearised rod along the equilibrium, and the base moment m0 eliminated by the implicit function theorem,
-  // dX = X_theta - X_m0 r_m0^-1 r_theta, r the residual moment. No step size, and no further solve.
+  // The equilibrium is the solver's. Derivatives: material, load steps, creep and masses by automatic
+  // differentiation, the linearised rod along the equilibrium, and the base moment m0 eliminated by the implicit
+  // function theorem, dX = X_theta - X_m0 r_m0^-1 r_theta, r the residual moment. No step size, and no further solve.
   bool predict(const Eigen::VectorXd& values, const std::vector<ActuationSample>& samples, bool derivatives,
                std::vector<TipPrediction>& predictions);
 

@@ -125,8 +125,8 @@ class SectionMomentsOf {
            isPositive(bendingStiffness(stretch, pressurised));
   }
 
-  // c(lam). Requires isValidAt(stretch). Shear and torsion follow the stretch law with the same ratio; pressure does not
-  // stiffen them.
+  // c(lam). Requires isValidAt(stretch). Shear and torsion follow the stretch law with the same ratio; pressure does
+  // not stiffen them.
   ComplianceDensityOf<T> complianceDensity(const T& stretch, const ChamberStiffness& pressurised = {}) const {
     const T ratio = tangentRatio(material_, stretch);
     const T GA = shear_stiffness_modulus_ * ratio * area(stretch);

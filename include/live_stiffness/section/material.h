@@ -14,10 +14,10 @@ bool isZeroForGood(const T& x) {
   else return x.a == 0.0 && x.v.isZero(0.0);
 }
 
-// Uniaxial law of an incompressible elastomer, as the ratio of its tangent modulus to E. A section under the axial force
-// F = A0 N(lam), N the nominal stress, answers dF = E_t A dlam / lam, and a small bending on top of the stretch with
-// dM = E_t I dkappa (curvature per stretched length), both with E_t = lam^2 N'(lam): fibre y is stretched to
-// lam (1 + kappa y), and A, I are those of the stretched section.
+// Uniaxial law of an incompressible elastomer, as the ratio of its tangent modulus to E. A section under the axial
+// force F = A0 N(lam), N the nominal stress, answers dF = E_t A dlam / lam, and a small bending on top of the stretch
+// with dM = E_t I dkappa (curvature per stretched length), both with E_t = lam^2 N'(lam): fibre y is stretched to lam
+// (1 + kappa y), and A, I are those of the stretched section.
 enum class StretchLaw {
   kSectionUpdate,  // E_t = E: Shi et al. (12), (24), where only the section changes
   kNeoHookean,     // N = E/3 (lam - lam^-2)
@@ -31,8 +31,8 @@ struct MaterialOf {
   T gent_limit = T(0.0);  // J_m, - (kGent)
   T yeoh_c2 = T(0.0);     // C_20 / C_10, - (kYeoh)
   T yeoh_c3 = T(0.0);     // C_30 / C_10, - (kYeoh)
-  // b, -: pressure P in chamber k adds the axial stiffness b P A_P at the chamber's centre. Shi et al. section 6.2: "the
-  // pressurised chambers may stiffen the robot to some extent". Not negative.
+  // b, -: pressure P in chamber k adds the axial stiffness b P A_P at the chamber's centre. Shi et al. section 6.2:
+  // "the pressurised chambers may stiffen the robot to some extent". Not negative.
   T pressure_stiffening = T(0.0);
   // One exponential creep mode: the share of the pressures' effect that comes late, and its time constant. The model
   // itself is static; see estimation/creep.h. Share 0: no creep.
