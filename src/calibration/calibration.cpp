@@ -38,7 +38,8 @@ SampleErrors errorsOf(const Registration& registration, const Pose& X_BT, const 
 // Standard deviations per axis from the residuals of the used samples. The median length of a 3-vector of unit variance
 // is 1.538. Not below a tenth of the tracker's own noise, so that a simulation without noise stays well conditioned.
 CalibrationProblem::Sigmas residualSigmas(CalibrationProblem& problem, size_t recordings,
-                                          const CalibrationProblem::Solution& solution, const CalibrationOptions& options) {
+                                          const CalibrationProblem::Solution& solution,
+                                          const CalibrationOptions& options) {
   std::vector<double> positions, rotations;
   for (size_t n = 0; n < recordings; ++n) {
     RecordingEvaluator& evaluator = problem.evaluator(n);
@@ -76,7 +77,7 @@ void describeParameters(const CalibrationProblem& problem, const std::vector<Sce
   for (size_t n = 0; n < recordings; ++n)  // the weak prior on the sensor's offset
     for (int k = 6; k < 9; ++k) {
       const long at = count + static_cast<long>(n) * kRegistrationSize + k;
-      information(at, at) += 1.0 / (0.03 * 0.03);
+      information(at, at) += 1.0 / (kOffsetSigma * kOffsetSigma);
     }
   // Of the parameters alone, registrations eliminated: what the data say, in units of the priors' information.
   Eigen::MatrixXd data = information.topLeftCorner(count, count);
@@ -137,7 +138,8 @@ void describeRecording(CalibrationProblem& problem, const CalibrationProblem::So
     if (data.used[i]) used.push_back(errors.position.norm());
   }
   for (int i : quasiStaticSamples(data.recording))
-    if (isUnloaded(data.recording.samples[static_cast<size_t>(i)])) quiet.push_back(fit.position_error[static_cast<size_t>(i)]);
+    if (isUnloaded(data.recording.samples[static_cast<size_t>(i)]))
+      quiet.push_back(fit.position_error[static_cast<size_t>(i)]);
   fit.used = summarizeErrors(std::move(used));
   fit.quasi_static_unloaded = summarizeErrors(std::move(quiet));
   fit.left_out_error.assign(predictions.size(), std::numeric_limits<double>::quiet_NaN());
@@ -168,7 +170,8 @@ CalibrationRecording::CalibrationRecording(Recording given, SampleChoice choice,
   for (size_t i = 0; i < used.size(); ++i) unloaded += used[i] && !loaded[i];
   if (unloaded < 3)
     throw ConfigurationError("recording " + recording.name,
-                             {std::to_string(unloaded) + " unloaded samples of the kind asked for: must be at least 3"});
+                             {std::to_string(unloaded) +
+                              " unloaded samples of the kind asked for: must be at least 3"});
 }
 
 CalibrationResult calibrate(const Scene& scene, const ChannelMap& channels,

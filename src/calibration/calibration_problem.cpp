@@ -12,8 +12,6 @@
 namespace live_stiffness {
 namespace {
 
-constexpr double kOffsetSigma = 0.03;  // prior of the sensor's offset from T, per axis, m: it is on the tip
-
 Eigen::VectorXd valuesAt(const std::vector<SceneParameter>& parameters, const double* x) {
   Eigen::VectorXd values(static_cast<long>(parameters.size()));
   for (size_t k = 0; k < parameters.size(); ++k)
@@ -75,8 +73,9 @@ class SampleCost : public ceres::CostFunction {
     const Vector3 lever = prediction.X_BT.R * registration.X_TS.p;
     for (size_t k = 0; k < parameters_.size(); ++k) {
       const Vector6 twist = prediction.derivative.col(static_cast<long>(k)) * parameters_[k].prior_sigma;
-      J.block<3, 1>(0, static_cast<long>(k)) = R_AB * (twist.head<3>() + twist.tail<3>().cross(lever)) / sigmas_.position;
-      if (rows == 6) J.block<3, 1>(3, static_cast<long>(k)) = left_inverse * (R_AB * twist.tail<3>()) / sigmas_.rotation;
+      const long column = static_cast<long>(k);
+      J.block<3, 1>(0, column) = R_AB * (twist.head<3>() + twist.tail<3>().cross(lever)) / sigmas_.position;
+      if (rows == 6) J.block<3, 1>(3, column) = left_inverse * (R_AB * twist.tail<3>()) / sigmas_.rotation;
     }
     return true;
   }
@@ -251,7 +250,8 @@ Registration RecordingEvaluator::registration(const RegistrationVector& r) const
 void RecordingEvaluator::restart(const double* x) {
   const std::vector<TipPrediction>* predictions = at(x, false);
   if (predictions == nullptr)
-    throw ConfigurationError("calibration of " + data_.recording.name, {"the model has no solution at the start: " + failure()});
+    throw ConfigurationError("calibration of " + data_.recording.name,
+                             {"the model has no solution at the start: " + failure()});
   std::vector<Pose> X_BT, X_AS;
   for (size_t i = 0; i < samples_.size(); ++i) {
     if (!data_.used[i] || data_.loaded[i]) continue;
@@ -341,16 +341,17 @@ CalibrationProblem::Solution CalibrationProblem::solve(const CalibrationUnknowns
       data_blocks.push_back(count > 0 ? problem.AddResidualBlock(cost, loss, unknowns.x.data(), registration)
                                       : problem.AddResidualBlock(cost, loss, registration));
     }
-    std::vector<int> entries{6, 7, 8};
-    problem.AddResidualBlock(new PriorCost(kRegistrationSize, entries, {0, 0, 0}, {kOffsetSigma, kOffsetSigma, kOffsetSigma}),
-                             nullptr, registration);
+    const std::vector<double> zeros(3, 0.0), offsets(3, kOffsetSigma);
+    problem.AddResidualBlock(new PriorCost(kRegistrationSize, {6, 7, 8}, zeros, offsets), nullptr, registration);
     if (sigmas.rotation <= 0.0)  // nothing else holds the sensor's rotation: it stays where it is
-      problem.AddResidualBlock(new PriorCost(kRegistrationSize, {9, 10, 11}, {0, 0, 0}, {1, 1, 1}), nullptr, registration);
+      problem.AddResidualBlock(new PriorCost(kRegistrationSize, {9, 10, 11}, zeros, {1, 1, 1}), nullptr,
+                               registration);
   }
   for (size_t row = 0; row < rows_.size() && count > 0; ++row)
     if (static_cast<int>(row) != left_out.row)
       data_blocks.push_back(problem.AddResidualBlock(
-          new RowCost(*this, row, rows_[row].compliance, options_.compliance_sigma, count), nullptr, unknowns.x.data()));
+          new RowCost(*this, row, rows_[row].compliance, options_.compliance_sigma, count), nullptr,
+          unknowns.x.data()));
   if (options_.use_priors && count > 0) {
     std::vector<int> entries;
     std::vector<double> means, ones;
@@ -403,7 +404,8 @@ CalibrationProblem::Solution CalibrationProblem::solve(const CalibrationUnknowns
   solution.residuals = Eigen::Map<Eigen::VectorXd>(residuals.data(), static_cast<long>(residuals.size()));
   solution.jacobian = Eigen::MatrixXd::Zero(sparse.num_rows, sparse.num_cols);
   for (int row = 0; row < sparse.num_rows; ++row)
-    for (int k = sparse.rows[row]; k < sparse.rows[row + 1]; ++k) solution.jacobian(row, sparse.cols[k]) = sparse.values[k];
+    for (int k = sparse.rows[row]; k < sparse.rows[row + 1]; ++k)
+      solution.jacobian(row, sparse.cols[k]) = sparse.values[k];
   return solution;
 }
 

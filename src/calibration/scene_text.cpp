@@ -28,7 +28,9 @@ std::string list(const Vector3& v) { return "[" + exact(v.x()) + ", " + exact(v.
 
 void writeSegment(std::ostream& out, const Segment& segment) {
   const CrossSection& section = segment.section;
-  const auto line = [&](const std::string& key, const std::string& value) { out << "      " << key << ": " << value << "\n"; };
+  const auto line = [&](const std::string& key, const std::string& value) {
+    out << "      " << key << ": " << value << "\n";
+  };
   out << "  - segment:\n";
   line("name", segment.name);
   line("length_m", exact(segment.length));

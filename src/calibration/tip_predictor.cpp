@@ -101,8 +101,8 @@ TipPredictor::TipPredictor(Scene scene, ModelOptions options, ChannelMap channel
                            std::vector<SceneParameter> parameters)
     : scene_(std::move(scene)), options_(options), channels_(std::move(channels)), parameters_(std::move(parameters)) {
   if (channels_.chamberCount() != scene_.chamberCount())
-    throw ConfigurationError("channel map", {"feeds " + std::to_string(channels_.chamberCount()) +
-                                             " chambers: must be the scene's " + std::to_string(scene_.chamberCount())});
+    throw ConfigurationError("channel map", {"feeds " + std::to_string(channels_.chamberCount()) + " chambers: must be the "
+                                             "scene's " + std::to_string(scene_.chamberCount())});
 }
 
 bool TipPredictor::predict(const Eigen::VectorXd& values, const std::vector<ActuationSample>& samples,

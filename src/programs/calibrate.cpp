@@ -33,7 +33,7 @@ struct Arguments {
   std::vector<std::string> recordings, tables, parameters{"youngs_modulus_pa", "chamber_pitch_radius_m", "length_m"};
   std::vector<std::string> priors, bounds;
   int channels = 0;
-  double position_mm = 0.5, rotation_deg = 1.0, compliance = 0.05, correlation = 1.0, huber = 2.0, accuracy = 1e-9;
+  double position_mm = 0.5, rotation_deg = 1.0, compliance = 0.05, correlation = 1.0, huber = 2.0;
   double sensor_azimuth_deg = 0.0, sensor_height = 0.0, sensor_sign = 1.0;
   int blocks = 8;
   bool no_orientation = false, no_priors = false, list = false, quiet = false;
@@ -88,7 +88,8 @@ void readPair(const std::string& text, const std::string& option, std::vector<Sc
       parameter.*first = std::stod(text.substr(equals + 1, colon - equals - 1)) * parameter.unit;
       parameter.*second = std::stod(text.substr(colon + 1)) * parameter.unit;
       if (option == "prior" && !(parameter.prior_sigma > 0.0)) faults.add("--prior " + text + ": SIGMA must be > 0");
-      if (option == "bounds" && !(parameter.low < parameter.high)) faults.add("--bounds " + text + ": LOW must be below HIGH");
+      if (option == "bounds" && !(parameter.low < parameter.high))
+        faults.add("--bounds " + text + ": LOW must be below HIGH");
       return;
     }
     faults.add("--" + option + " " + text + ": '" + name + "' is not among --parameters");
@@ -121,8 +122,10 @@ int run(const Arguments& a, const std::string& command) {
   FaultList faults("options");
   CalibrationOptions options;
   options.model = namedModelOptions(a.model, a.stepping, faults);
-  if (a.stepping.empty() && options.model.stepping == Stepping::kFixedStep) options.model.stepping = Stepping::kContinuous;
-  if (a.samples != "all" && a.samples != "quasi_static") faults.add("samples '" + a.samples + "': must be all or quasi_static");
+  if (a.stepping.empty() && options.model.stepping == Stepping::kFixedStep)
+    options.model.stepping = Stepping::kContinuous;
+  if (a.samples != "all" && a.samples != "quasi_static")
+    faults.add("samples '" + a.samples + "': must be all or quasi_static");
   faults.check("position-sigma-mm", a.position_mm, Range::positive());
   faults.check("rotation-sigma-deg", a.rotation_deg, Range::positive());
   faults.check("compliance-sigma", a.compliance, Range::positive());

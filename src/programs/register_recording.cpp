@@ -25,7 +25,8 @@ const char* const kHelp =
 int run(const std::string& scene_path, const std::string& recording_path, const std::string& output_path,
         const std::string& samples, bool orientation) {
   FaultList faults("options");
-  if (samples != "all" && samples != "quasi_static") faults.add("samples '" + samples + "': must be all or quasi_static");
+  if (samples != "all" && samples != "quasi_static")
+    faults.add("samples '" + samples + "': must be all or quasi_static");
   faults.throwIfAny();
   CalibrationOptions options;
   options.model.stepping = Stepping::kContinuous;

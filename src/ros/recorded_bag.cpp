@@ -22,8 +22,8 @@ struct Tracks {
 };
 
 template <class Value, class Result>
-void keep(const Reading<Value>& reading, const ros::Time& recorded, const Result& result, std::map<double, Result>& track,
-          Tracks& tracks) {
+void keep(const Reading<Value>& reading, const ros::Time& recorded, const Result& result,
+          std::map<double, Result>& track, Tracks& tracks) {
   if (reading.ok()) {
     track[(reading.stamp.isZero() ? recorded : reading.stamp).toSec()] = result;
     return;
@@ -94,8 +94,11 @@ Recording loadRecordedBag(const std::string& path, const PressureFormat& format,
     recording.samples.push_back(std::move(sample));
   }
   if (tracks.unreadable > 0)
-    recording.warnings.push_back(std::to_string(tracks.unreadable) + " messages left out, the first because: " + tracks.fault);
-  if (early > 0) recording.warnings.push_back(std::to_string(early) + " poses left out: no pressures before them, or of another number");
+    recording.warnings.push_back(std::to_string(tracks.unreadable) + " messages left out, the first because: " +
+                                 tracks.fault);
+  if (early > 0)
+    recording.warnings.push_back(std::to_string(early) + " poses left out: no pressures before them, or of another "
+                                 "number");
   if (recording.samples.empty())
     throw ConfigurationError("bag " + path, {"no pose on aurora_pose with pressures on chamber_pressures before it"});
   return recording;

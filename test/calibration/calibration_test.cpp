@@ -34,7 +34,9 @@ CalibrationOptions whiteNoise() {
   return options;
 }
 
-CalibrationRecording use(Recording recording) { return {std::move(recording), SampleChoice::kAll, LoadedSamples::kIgnore}; }
+CalibrationRecording use(Recording recording) {
+  return {std::move(recording), SampleChoice::kAll, LoadedSamples::kIgnore};
+}
 
 // Truth: 20 % stiffer, 2 mm longer, a pitch radius 0.2 mm larger, and creep, recorded with a fine model of its own.
 Scene truth() {
@@ -196,8 +198,7 @@ TEST(ForceSensorMount, CarriesTheWrenchToTheTipInBaseAxes) {
 TEST(Calibration, RefusesWhatDoesNotFit) {
   EXPECT_THROW(sceneParameter("gent_limit", arm(), kPairs), ConfigurationError);
   EXPECT_THROW(sceneParameter("colour", arm(), kPairs), ConfigurationError);
-  EXPECT_THROW(CalibrationRecording(Recording{"short", false, {RecordedSample()}, {}}, SampleChoice::kAll, LoadedSamples::kIgnore),
-               ConfigurationError);
+  EXPECT_THROW(use(Recording{"short", false, {RecordedSample()}, {}}), ConfigurationError);
   Scene without = arm();
   segmentOf(without, 0).section.youngs_modulus = 1e3;  // so soft that its own pressures burst it
   EXPECT_THROW(calibrate(without, kPairs, {}, {use(SimulatedRecording().record(arm()))}, {}, whiteNoise()),

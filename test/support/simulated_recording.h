@@ -35,7 +35,10 @@ struct SimulatedRecording {
     std::mt19937_64 random(7);
     std::normal_distribution<double> normal;
     std::uniform_real_distribution<double> uniform;
-    const auto noise = [&](double sigma) { return Vector3(sigma * normal(random), sigma * normal(random), sigma * normal(random)); };
+    const auto noise = [&](double sigma) {
+      const double x = normal(random), y = normal(random), z = normal(random);
+      return Vector3(sigma * x, sigma * y, sigma * z);
+    };
     Recording recording;
     recording.name = "simulated";
     for (double time = 0.0; time < seconds; time += sample_time) {
