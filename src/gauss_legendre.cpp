@@ -37,15 +37,18 @@ void makeRule(int n, Nodes& node, Nodes& weight) {
   }
 }
 
-// Integral over [0, end] of the Lagrange polynomial that is 1 at node j. Its degree is n - 1, so the rule is exact.
+// Lagrange polynomial that is 1 at node j.
+Real lagrange(int n, const Nodes& node, int j, Real at) {
+  Real value = 1;
+  for (int k = 0; k < n; ++k)
+    if (k != j) value *= (at - node[k]) / (node[j] - node[k]);
+  return value;
+}
+
+// Its integral over [0, end]; its degree is n - 1, so the rule is exact.
 Real lagrangeIntegral(int n, const Nodes& node, const Nodes& weight, int j, Real end) {
   Real integral = 0;
-  for (int q = 0; q < n; ++q) {
-    Real lagrange = 1;
-    for (int k = 0; k < n; ++k)
-      if (k != j) lagrange *= (end * node[q] - node[k]) / (node[j] - node[k]);
-    integral += end * weight[q] * lagrange;
-  }
+  for (int q = 0; q < n; ++q) integral += end * weight[q] * lagrange(n, node, j, end * node[q]);
   return integral;
 }
 
@@ -78,12 +81,25 @@ const GaussLegendre& gaussLegendre(int nodes) {
 }
 
 NodeTransfer makeTransfer(int from, int to) {
-  Nodes node{}, weight{}, end{}, unused{};
-  makeRule(from, node, weight);
+  Nodes node{}, end{}, unused{};
+  makeRule(from, node, unused);
   makeRule(to, end, unused);
   NodeTransfer transfer{};
   for (int j = 0; j < from; ++j)
-    for (int i = 0; i < to; ++i) transfer.integral[j][i] = lagrangeIntegral(from, node, weight, j, end[i]);
+    for (int i = 0; i < to; ++i) {
+      // x l_j(x) / c_j, and its derivative.
+      const Real x = end[i], value = lagrange(from, node, j, x);
+      Real slope = 0;
+      for (int m = 0; m < from; ++m) {
+        if (m == j) continue;
+        Real product = 1 / (node[j] - node[m]);
+        for (int k = 0; k < from; ++k)
+          if (k != j && k != m) product *= (x - node[k]) / (node[j] - node[k]);
+        slope += product;
+      }
+      transfer.value[j][i] = x * value / node[j];
+      transfer.slope[j][i] = (value + x * slope) / node[j];
+    }
   return transfer;
 }
 

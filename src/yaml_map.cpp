@@ -121,8 +121,8 @@ bool isOfKind(YamlMap& map, const std::string& kind, const std::string& wanted, 
   if (found == kind) return true;
   const bool exists = found == "serial" || found == "parallel";
   faults.add("kind = " + found + ": must be " + kind + " here, " + wanted +
-             (!exists ? "" : found == "parallel" ? "; parallel_solve reads parallel scenes"
-                                                 : "; stiffness_solve and the node read serial scenes"));
+             (!exists ? "" : found == "parallel" ? "; parallel_node and parallel_solve read parallel scenes"
+                                                 : "; stiffness_node and stiffness_solve read serial scenes"));
   return false;
 }
 

@@ -19,9 +19,9 @@ struct GaussLegendre {
 // The table for 1 to kMaxNodes nodes, computed at first use in extended precision.
 const GaussLegendre& gaussLegendre(int nodes);
 
-// result[j][i] integrates the polynomial through values at the nodes c_j of `from` over [0, c_i of `to`].
+// Of the polynomial that is zero at 0 and given at the nodes c_j of `from`: value[j][i] and slope[j][i] at c_i of `to`.
 struct NodeTransfer {
-  NodeRow integral[kMaxNodes];
+  NodeRow value[kMaxNodes], slope[kMaxNodes];
 };
 NodeTransfer makeTransfer(int from, int to);
 

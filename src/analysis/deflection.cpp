@@ -1,5 +1,7 @@
 #include "live_stiffness/analysis/deflection.h"
 
+#include <algorithm>
+
 namespace live_stiffness {
 
 PredictedDeflection predictDeflection(const Pose& X_BT, const Matrix6& C, const Wrench& wrench) {
@@ -15,6 +17,13 @@ PoseDifference differenceOf(const Pose& a, const Pose& b) {
   return {(a.p - b.p).norm(), logSo3(a.R * b.R.transpose()).norm()};
 }
 
+bool isSameEquilibrium(const Pose& a, const Pose& b, const StiffnessModel& model) {
+  constexpr double kMargin = 1e3;  // a soft robot turns an error of its loads into more of one of its pose
+  const double tolerance = std::clamp(kMargin * model.options().accuracy, 1e-6, 0.1);
+  const PoseDifference difference = differenceOf(a, b);
+  return difference.position <= tolerance * model.scene().length() && difference.rotation <= tolerance;
+}
+
 DeflectionCheck checkDeflection(const StiffnessModel& model, PressuresRef pressures, const Wrench& wrench,
                                 const Wrench& added, StiffnessWorkspace& workspace) {
   DeflectionCheck check;
@@ -23,6 +32,7 @@ DeflectionCheck checkDeflection(const StiffnessModel& model, PressuresRef pressu
   check.status = before.status;
   if (!before.status.ok()) return check;
   check.undeflected_ok = true;
+  check.undeflected = before.X_BT;
   check.predicted = predictDeflection(before.X_BT, before.compliance, added);
   const StiffnessSolution after = model.solve(pressures, wrench + added, workspace);
   check.status = after.status;

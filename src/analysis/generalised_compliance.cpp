@@ -65,8 +65,7 @@ class GeneralisedCompliance::Walk {
       RodElement piece = element;
       piece.state.length = element.state.length * (to - from) / count;
       piece.setStart(X_, n_, m_);
-      resetGuess(piece);
-      result_.ok_ = integrate(passes_, piece) && addPiece(piece);
+      result_.ok_ = integrate(passes_, true, piece) && addPiece(piece);
       X_ = piece.X_end();
       n_ = piece.n_end();
       m_ = piece.m_end();
@@ -79,8 +78,7 @@ class GeneralisedCompliance::Walk {
     for (bool of_moment : {false, true}) {
       ElementColumns start = {}, end = {};
       columnsOf(of_moment ? start.m : start.phi).leftCols<3>().setIdentity();
-      resetColumns(start, piece.state);
-      if (!std::isfinite(propagate(passes_, piece, start, kColumnGoal, end))) return false;
+      if (!std::isfinite(propagate(passes_, true, piece, start, kColumnGoal, end))) return false;
       Eigen::Matrix<double, 9, 6> columns;
       columns << columnsOf(end.phi), columnsOf(end.p), columnsOf(end.m);
       step.of_state.middleCols<3>(of_moment ? 6 : 0) = columns.leftCols<3>();

@@ -44,9 +44,12 @@ SolveStatus StiffnessModel::checkInput(PressuresRef pressures, const Wrench& tip
 }
 
 SolveStatus StiffnessModel::stepLoads(PressuresRef pressures, Backbone& backbone) const {
-  const double largest = pressures.size() > 0 ? pressures.cwiseAbs().maxCoeff() : 0.0;
-  if (options_.stepping == Stepping::kFixedStep && largest > 1e4 * options_.pressure_step) return {SolveCode::kOutOfRange, -1, largest};
-  const int steps = stepCount(largest, options_.pressure_step);
+  int steps = 1;
+  if (options_.stepping == Stepping::kFixedStep) {
+    const double largest = pressures.size() > 0 ? pressures.cwiseAbs().maxCoeff() : 0.0;
+    if (largest > 1e4 * options_.pressure_step) return {SolveCode::kOutOfRange, -1, largest};
+    steps = stepCount(largest, options_.pressure_step);
+  }
   SolveStatus status;
   Eigen::Index first = 0;
   for (size_t k = 0; k < steppers_.size(); ++k) {
@@ -84,13 +87,16 @@ StiffnessSolution StiffnessModel::solve(PressuresRef pressures, const Wrench& ti
     }
     solution.buckled = report.buckled;
     solution.numerical_error = (report.truncation + report.residual + report.iteration) * report.amplification;
+    const Chain& chain = workspace.statics_.chain();
+    solution.numerical_error += accumulateMaterial(chain, options_.accuracy, backbone, solution.material_compliance);
+    solution.compliance = workspace.statics_.tangentCompliance();
   } else {
-    workspace.statics_.placeUnloaded(backbone);
+    workspace.statics_.prepareUnloaded(backbone);
+    const Chain& chain = workspace.statics_.chain();
+    solution.numerical_error = placeUnloaded(chain, options_.accuracy, backbone, solution.material_compliance);
+    solution.compliance = solution.material_compliance;  // without external load the two are the same matrix
   }
   solution.X_BT = backbone.X_BT;
-  solution.numerical_error += accumulateMaterial(backbone, options_.accuracy, workspace.loaded_, solution.material_compliance);
-  // Without external load the two are the same matrix.
-  solution.compliance = workspace.loaded_ ? workspace.statics_.tangentCompliance() : solution.material_compliance;
   solution.numerical_error += 1e-14;  // rounding
   // A sum is finite only if all its terms are.
   if (!std::isfinite(solution.X_BT.p.sum() + solution.compliance.sum() + solution.material_compliance.sum()))

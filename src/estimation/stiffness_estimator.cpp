@@ -16,6 +16,15 @@ EstimatorOptions checked(EstimatorOptions options) {
 
 }  // namespace
 
+std::vector<Station> sampleBackbone(const StiffnessModel& model, const StiffnessWorkspace& workspace,
+                                    int per_segment) {
+  std::vector<Station> samples;
+  for (int segment = 0; segment < model.scene().segmentCount(); ++segment)
+    for (int i = 0; i <= per_segment; ++i)
+      samples.push_back(model.station(workspace, segment, static_cast<double>(i) / per_segment));
+  return samples;
+}
+
 StiffnessEstimator::StiffnessEstimator(Scene scene, const ModelOptions& model_options, EstimatorOptions options)
     : model_(std::move(scene), model_options), options_(checked(std::move(options))),
       workspace_(model_.makeWorkspace()) {}
@@ -65,12 +74,8 @@ StiffnessEstimator::Outcome StiffnessEstimator::solve() {
 }
 
 std::vector<Station> StiffnessEstimator::sampleBackbone(int per_segment) const {
-  std::vector<Station> samples;
-  if (!has_estimate_ || !status_.ok()) return samples;
-  for (int segment = 0; segment < model_.scene().segmentCount(); ++segment)
-    for (int i = 0; i <= per_segment; ++i)
-      samples.push_back(model_.station(workspace_, segment, static_cast<double>(i) / per_segment));
-  return samples;
+  if (!has_estimate_ || !status_.ok()) return {};
+  return live_stiffness::sampleBackbone(model_, workspace_, per_segment);
 }
 
 }  // namespace live_stiffness

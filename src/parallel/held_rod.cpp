@@ -204,7 +204,7 @@ Wrench HeldRod::baseWrench() const {
 
 Matrix6 HeldRod::materialCompliance(double accuracy) {
   Matrix6 compliance;
-  accumulateMaterial(backbone_, accuracy, true, compliance);
+  accumulateMaterial(chain_, accuracy, backbone_, compliance);
   return turned(compliance, X_BR_.R);
 }
 

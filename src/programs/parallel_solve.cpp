@@ -17,6 +17,28 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kExitOk = 0, kExitRowFailed = 1, kExitUsage = 2;
 
+// Points of every rod, evenly from base to platform.
+struct RodShapes {
+  std::vector<double> fractions;
+
+  std::vector<std::string> names(int rods) const {
+    std::vector<std::string> names;
+    for (int rod = 1; rod <= rods; ++rod)
+      for (size_t i = 1; i <= fractions.size(); ++i)
+        for (const char* axis : {"x", "y", "z"})
+          names.push_back("r" + std::to_string(rod) + "_" + std::to_string(i) + "_" + axis + "_m");
+    return names;
+  }
+  void append(const ParallelModel& model, const ParallelWorkspace& workspace, ResultRow& row) const {
+    if (!row.status.ok() || fractions.empty()) return;
+    std::vector<Pose> points;
+    for (int rod = 0; rod < model.scene().rodCount(); ++rod) {
+      model.stations(workspace, rod, fractions, points);
+      for (const Pose& point : points) row.more.insert(row.more.end(), point.p.data(), point.p.data() + 3);
+    }
+  }
+};
+
 ResultRow resultOf(const ParallelModel& model, const ParallelSolution& solution, Clock::time_point start) {
   ResultRow row;
   row.solve_us = std::chrono::duration<double, std::micro>(Clock::now() - start).count();
@@ -30,21 +52,25 @@ ResultRow resultOf(const ParallelModel& model, const ParallelSolution& solution,
 }
 
 // Rows do not depend on one another. Both return the number that failed.
-long solveLengths(const ParallelModel& model) {
+long solveLengths(const ParallelModel& model, const RodShapes& shapes) {
   InputTable table(std::cin, numberedColumns("l_", "_m", model.scene().rodCount()));
   ParallelWorkspace workspace = model.makeWorkspace();
-  return solveTable(table, {}, [&](const InputRow& input) {
+  return solveTable(table, shapes.names(model.scene().rodCount()), [&](const InputRow& input) {
     const std::vector<double> lengths(input.values.data(), input.values.data() + input.values.size());
     workspace.reset();
     const auto start = Clock::now();
-    return resultOf(model, model.solve(lengths, input.wrench, workspace), start);
+    ResultRow row = resultOf(model, model.solve(lengths, input.wrench, workspace), start);
+    shapes.append(model, workspace, row);
+    return row;
   });
 }
 
-long solvePoses(const ParallelModel& model) {
+long solvePoses(const ParallelModel& model, const RodShapes& shapes) {
   InputTable table(std::cin, {"x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"});
   ParallelWorkspace workspace = model.makeWorkspace();
-  return solveTable(table, numberedColumns("l_", "_m", model.scene().rodCount()), [&](const InputRow& input) {
+  std::vector<std::string> further = numberedColumns("l_", "_m", model.scene().rodCount());
+  for (const std::string& name : shapes.names(model.scene().rodCount())) further.push_back(name);
+  return solveTable(table, further, [&](const InputRow& input) {
     const auto& v = input.values;
     const Eigen::Quaterniond q(v[3], v[4], v[5], v[6]);
     Pose X_BP{q.normalized().toRotationMatrix(), v.head<3>()};
@@ -53,6 +79,7 @@ long solvePoses(const ParallelModel& model) {
     const auto start = Clock::now();
     ResultRow row = resultOf(model, model.solveForLengths(X_BP, input.wrench, workspace), start);
     for (const HeldRod& rod : workspace.rods()) row.more.push_back(rod.length());
+    shapes.append(model, workspace, row);
     return row;
   });
 }
@@ -63,11 +90,14 @@ int main(int argc, char** argv) {
   std::string scene_path;
   ParallelOptions parallel_options;
   double accuracy = parallel_options.accuracy;
+  int points = 0;
   po::options_description options("Options");
   options.add_options()
     ("help,h", "print this and exit")
     ("inverse", "read platform poses and find the lengths of six rods")
     ("accuracy", po::value(&accuracy)->default_value(accuracy, "1e-9"), "relative, of pose and compliance")
+    ("points", po::value(&points)->default_value(points),
+     "also so many points of every rod, evenly from base to platform")
     ("scene", po::value(&scene_path)->required(), "scene file of kind parallel");
   po::positional_options_description positional;
   positional.add("scene", 1);
@@ -81,16 +111,22 @@ int main(int argc, char** argv) {
                    "     origin, base axes). With --inverse x_m,y_m,z_m,qw,qx,qy,qz instead of the lengths.\n"
                    "Out: status,iterations,solve_us, platform position and quaternion, then the tangent (c_ij) and the\n"
                    "     material compliance by (53) (material_ij) of the platform's origin, row by row, SI, linear part\n"
-                   "     first, base axes. With --inverse then l_1_m,...,l_N_m.\n"
+                   "     first, base axes. With --inverse then l_1_m,...,l_N_m. With --points then\n"
+                   "     r1_1_x_m, ...: rod 1, point 1, in the base.\n"
                    "Exit status: 0 all rows solved, 1 some failed (see standard error), 2 nothing could be done.\n\n"
                 << options;
       return kExitOk;
     }
     po::notify(values);
     parallel_options.accuracy = accuracy;
+    if (points != 0 && (points < 2 || points > 1000))
+      throw ConfigurationError("options", {"points = " + std::to_string(points) + ": must be 0 or from 2 to 1000"});
+    RodShapes shapes;
+    for (int i = 0; i < points; ++i) shapes.fractions.push_back(i / (points - 1.0));
     const ParallelModel model(loadParallelSceneFile(scene_path), parallel_options);
     std::ios::sync_with_stdio(false);
-    return (values.count("inverse") ? solvePoses(model) : solveLengths(model)) > 0 ? kExitRowFailed : kExitOk;
+    const long failed = values.count("inverse") ? solvePoses(model, shapes) : solveLengths(model, shapes);
+    return failed > 0 ? kExitRowFailed : kExitOk;
   } catch (const std::exception& error) {
     std::cerr << "parallel_solve: " << error.what() << "\nSee parallel_solve --help.\n";
     return kExitUsage;

@@ -2,9 +2,11 @@
 
 #include <boost/program_options.hpp>
 #include <chrono>
+#include <cstdlib>
 #include <iostream>
+#include <sstream>
 
-#include "live_stiffness/compliance/stiffness_model.h"
+#include "live_stiffness/analysis/deflection.h"
 #include "live_stiffness/rod/scene_file.h"
 #include "result_table.h"
 
@@ -17,29 +19,97 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kExitOk = 0, kExitRowFailed = 1, kExitUsage = 2;
 
+// What the table has beyond the tip.
+struct Further {
+  std::vector<double> fractions;  // of the stations of every segment
+  bool deflection = false;
+};
+
+std::vector<std::string> namesOf(const Further& further, int segments) {
+  const std::vector<std::string> pose{"x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"};
+  std::vector<std::string> names;
+  for (int k = 1; k <= segments; ++k)
+    for (double fraction : further.fractions) {
+      const std::string place = "s" + std::to_string(k) + "_" + numberText(fraction) + "_";
+      for (const std::string& name : pose) names.push_back(place + name);
+      for (int i = 1; i <= 6; ++i)
+        for (int j = 1; j <= 6; ++j) names.push_back(place + "material_" + std::to_string(i) + std::to_string(j));
+    }
+  if (further.deflection)
+    for (const char* compliance : {"tangent", "material"})
+      for (const char* way : {"linear", "exponential"})
+        for (int i = 0; i < 3; ++i) names.push_back(std::string(compliance) + "_" + way + "_" + pose[i]);
+  return names;
+}
+
+void append(const Vector3& p, std::vector<double>& numbers) { numbers.insert(numbers.end(), p.data(), p.data() + 3); }
+
+// Stations of the last solve in the workspace.
+void appendStations(const StiffnessModel& model, const StiffnessWorkspace& workspace, const Further& further,
+                    std::vector<double>& numbers) {
+  std::vector<Station> stations;
+  for (int k = 0; k < model.scene().segmentCount(); ++k) {
+    model.stations(workspace, k, further.fractions, stations);
+    for (const Station& station : stations) {
+      append(station.X_BS.p, numbers);
+      const Eigen::Quaterniond q(station.X_BS.R);
+      for (double value : {q.w(), q.x(), q.y(), q.z()}) numbers.push_back(value);
+      for (int i = 0; i < 6; ++i)
+        for (int j = 0; j < 6; ++j) numbers.push_back(station.compliance(i, j));
+    }
+  }
+}
+
 // Solves every row; rows do not depend on one another. Returns the number that failed.
-long solveAll(const StiffnessModel& model, InputTable& table) {
+long solveAll(const StiffnessModel& model, const Further& further, InputTable& table) {
   StiffnessWorkspace workspace = model.makeWorkspace();
-  return solveTable(table, {}, [&](const InputRow& input) {
-    workspace.reset();
-    const auto start = Clock::now();
-    const StiffnessSolution solution = model.solve(input.values, input.wrench, workspace);
+  return solveTable(table, namesOf(further, model.scene().segmentCount()), [&](const InputRow& input) {
+    const auto solve = [&](const Wrench& wrench) {
+      workspace.reset();
+      return model.solve(input.values, wrench, workspace);
+    };
     ResultRow row;
+    const auto start = Clock::now();
+    const StiffnessSolution solution = solve(input.wrench);
     row.solve_us = std::chrono::duration<double, std::micro>(Clock::now() - start).count();
     row.status = solution.status;
-    if (!row.status.ok()) row.fault = model.describe(row.status);
     row.iterations = solution.iterations;
     row.X = solution.X_BT;
     row.compliance = solution.compliance;
     row.material_compliance = solution.material_compliance;
+    if (row.status.ok() && !further.fractions.empty()) appendStations(model, workspace, further, row.more);
+    if (row.status.ok() && further.deflection) {
+      const StiffnessSolution free = solve(Wrench::Zero());
+      row.status = free.status;
+      for (const Matrix6& C : {free.compliance, free.material_compliance}) {
+        const PredictedDeflection predicted = predictDeflection(free.X_BT, C, input.wrench);
+        append(predicted.linear.p, row.more);
+        append(predicted.exponential.p, row.more);
+      }
+    }
+    if (!row.status.ok()) row.fault = model.describe(row.status);
     return row;
   });
+}
+
+// Fractions such as 0.5,1.
+std::vector<double> readFractions(const std::string& text, FaultList& faults) {
+  std::vector<double> fractions;
+  std::istringstream words(text);
+  for (std::string word; std::getline(words, word, ',');) {
+    char* end = nullptr;
+    fractions.push_back(std::strtod(word.c_str(), &end));
+    if (word.empty() || *end != '\0' || !(fractions.back() >= 0.0 && fractions.back() <= 1.0))
+      faults.add("stations = " + text + ": must be fractions of a segment's length from 0 to 1, such as 0.5,0.75,1");
+  }
+  return fractions;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string scene_path, model_name, stepping;
+  std::string scene_path, model_name, stepping, stations;
+  Further further;
   ModelOptions defaults;
   double pressure_step_pa = defaults.pressure_step;
   double accuracy = defaults.accuracy;
@@ -52,6 +122,10 @@ int main(int argc, char** argv) {
     ("pressure-step-pa", po::value(&pressure_step_pa)->default_value(pressure_step_pa, "15000"),
      "largest step of fixed_step, Pa")
     ("accuracy", po::value(&accuracy)->default_value(accuracy, "1e-9"), "relative, of pose and compliance")
+    ("stations", po::value(&stations), "also pose and material compliance there in every segment: fractions of its "
+                                       "length, such as 0.5,1")
+    ("deflection", po::bool_switch(&further.deflection),
+     "also where (19) and its linear part predict the tip, from both compliances without the wrench")
     ("scene", po::value(&scene_path)->required(), "scene file");
   po::positional_options_description positional;
   positional.add("scene", 1);
@@ -64,6 +138,9 @@ int main(int argc, char** argv) {
                    "     fx_n,fy_n,fz_n,mx_nm,my_nm,mz_nm (dead wrench at the tip point, base axes).\n"
                    "Out: status,iterations,solve_us, tip position and quaternion, then the tangent (c_ij) and material\n"
                    "     compliance (material_ij) of the tip point, row by row, SI, linear part first, base axes.\n"
+                   "     --stations: s1_0.5_x_m ... s1_0.5_qz, s1_0.5_material_11 ... of segment 1 at half its length\n"
+                   "     (of what lies between base and there). --deflection: tangent_linear_x_m ...,\n"
+                   "     tangent_exponential_x_m ..., material_linear_x_m ..., material_exponential_x_m ...\n"
                    "Exit status: 0 all rows solved, 1 some failed (see standard error), 2 nothing could be done.\n\n"
                 << options;
       return kExitOk;
@@ -71,13 +148,14 @@ int main(int argc, char** argv) {
     po::notify(values);
     FaultList faults("options");
     ModelOptions model_options = namedModelOptions(model_name, stepping, faults);
+    further.fractions = readFractions(stations, faults);
     faults.throwIfAny();
     model_options.pressure_step = pressure_step_pa;
     model_options.accuracy = accuracy;
     const StiffnessModel model(loadSceneFile(scene_path), model_options);
     std::ios::sync_with_stdio(false);
     InputTable table(std::cin, numberedColumns("p_", "_pa", model.scene().chamberCount()));
-    return solveAll(model, table) > 0 ? kExitRowFailed : kExitOk;
+    return solveAll(model, further, table) > 0 ? kExitRowFailed : kExitOk;
   } catch (const std::exception& error) {
     std::cerr << "stiffness_solve: " << error.what() << "\nSee stiffness_solve --help.\n";
     return kExitUsage;

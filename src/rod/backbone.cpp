@@ -24,15 +24,22 @@ bool Backbone::resize(int stages) {
     size_t next = 0;
     for (size_t segment = 0; segment < element_count.size(); ++segment)
       for (int k = 0; k < element_count[segment]; ++k)
-        changed = changed || elements[next++].segment != static_cast<int>(segment);
+        changed = changed || elements[next++].state.segment != static_cast<int>(segment);
   }
   if (!changed) return false;
   elements.resize(count);
   size_t next = 0;
   for (size_t segment = 0; segment < element_count.size(); ++segment)
-    for (int k = 0; k < element_count[segment]; ++k) elements[next++].segment = static_cast<int>(segment);
+    for (int k = 0; k < element_count[segment]; ++k) elements[next++].state.segment = static_cast<int>(segment);
   passes = &elementPasses(stages, simd_);
   return true;
+}
+
+void Backbone::setTip(const double (&R)[9], const double (&p)[3]) {
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) X_BT.R(i, j) = R[3 * i + j];
+    X_BT.p[i] = p[i];
+  }
 }
 
 }  // namespace live_stiffness

@@ -23,8 +23,11 @@ double bendingOfAnElement(int stages, double accuracy) {
 }
 
 int countOf(double demand, double bending) {
-  if (!(demand < 1e6)) return Backbone::kMaxElements / 2;  // NaN, too; nothing will be found
-  return static_cast<int>(std::clamp(std::ceil(demand / bending), 1.0, Backbone::kMaxElements / 2.0));
+  const double elements = demand / bending;
+  constexpr int kMost = Backbone::kMaxElements / 2;
+  if (!(elements < kMost)) return kMost;  // NaN, too; nothing will be found
+  const int whole = static_cast<int>(elements);  // std::ceil is a call where SSE4.1 is not taken for granted
+  return std::max(1, whole + (elements > whole));
 }
 
 // Gauss collocation errs by the product of what two expansions leave out: the solution's own and that of its Green's
@@ -84,7 +87,7 @@ bool Discretisation::chooseForDemand(Backbone& backbone) {
   for (const Choice& choice : choices_) {
     if (one_each) break;
     double cost = 0.0;
-    for (size_t k = 0; k < demand_.size(); ++k) cost += choice.cost * std::max(1.0, std::ceil(demandOf(k) / choice.bending));
+    for (size_t k = 0; k < demand_.size(); ++k) cost += choice.cost * countOf(demandOf(k), choice.bending);
     if (cost < cheapest) {
       cheapest = cost;
       best = &choice;
@@ -106,22 +109,25 @@ bool Discretisation::refine(double amplification, Backbone& backbone) {
   constexpr double kMargin = 1.05, kMostGrowth = 2.0, kEasierBy = 0.8;
   constexpr int kPatience = 50;  // solves; each attempt with too little costs a second solve
   const int stages = backbone.passes->stages;
+  static const double kLongest = std::pow(2.0 * std::tan(0.7 * kMaxBending), 2);  // |g|^2 of 1.4 kMaxBending
   bool wanting = false, easier = true;
   auto element = backbone.elements.begin();
   for (size_t segment = 0; segment < demand_.size(); ++segment) {
     const int count = backbone.element_count[segment];
-    double error = 0.0, bending = 0.0;
+    double error = 0.0, longest = 0.0;
     for (int k = 0; k < count; ++k, ++element) {
       error += truncationOf(*element, cancellation_);
-      bending = std::max(bending, element->bending(stages));
+      longest = std::max(longest, element->g_end(stages).squaredNorm());
     }
     error *= amplification;
+    const bool too_long = longest > kLongest, fine = error <= accuracy_ && !too_long;
+    easier = easier && !too_long && caution_[segment] > 1.0;
+    if (fine && !easier) continue;
     // Bending at which elements of so many stages would leave just this error.
     const double seen = std::pow(error / accuracy_, 0.5 / stages) * bendingOfAnElement(stages, accuracy_) * count;
-    const bool too_long = bending > 1.4 * kMaxBending;
     seen_caution_[segment] = std::max(1.0, kMargin * seen / demand_[segment]);
-    easier = easier && !too_long && seen_caution_[segment] <= kEasierBy * caution_[segment];
-    if (error <= accuracy_ && !too_long) {
+    easier = easier && seen_caution_[segment] <= kEasierBy * caution_[segment];
+    if (fine) {
       seen_caution_[segment] = std::min(seen_caution_[segment], caution_[segment]);
       continue;
     }

@@ -52,19 +52,38 @@ struct Columns : Collocation<kStages> {
     for (int v = 0; v < kVectors; ++v) store(e.dm[k], v, splat(start.m[k]) + moment.at[v]);
   }
 
-  // What the moment of column k changes by for an observer who turns with the section; B times it is phi'.
-  static LIVE_STIFFNESS_INLINE Lanes3 turningMoment(const ElementState& e, int k, int v) {
-    return load(e.dm[k], v) + cross(load(e.m, v), load(e.phi[k], v));
+  // How far the end moves by column k.
+  static LIVE_STIFFNESS_INLINE void move(const GaussLegendre& t, const ElementState& e, int k, Lanes (&along)[18]) {
+    Lanes3 p{};
+#pragma GCC unroll 4
+    for (int v = 0; v < kVectors; ++v) p = p + load(t.b, v) * (loadMatrix(e.p_of_phi, v) * load(e.phi[k], v));
+    along[3 * k] = p.x, along[3 * k + 1] = p.y, along[3 * k + 2] = p.z;
   }
 
+  // What a pass finds of the columns that it starts from.
+  struct Found {
+    double phi_end[6][3];
+    Lanes along[18];
+    StageRow moment[6][3];   // change of the moment for an observer who turns with the section; B times it is phi'
+    StageRow missing[6][3];  // weight times phi' that the moments demand, less that which phi was made of
+  };
+
   // Moments, then phi' = B (dm - phi x m). In this order the change of phi shows whatever is not yet right.
-  static void columnPass(ElementState& e, const ElementColumns& start) {
+  static void columnPass(ElementState& e, const ElementColumns& start, Found& found) {
     const GaussLegendre& t = table();
     Lanes change[2] = {}, size[2] = {};  // base moment and tip force have their own units
     for (int k = 0; k < 6; ++k) {
       updateMoments(t, e, start, k);
+      move(t, e, k, found.along);
+      for (int i = 0; i < 3; ++i) found.phi_end[k][i] = e.phi[k][i][kStages];
 #pragma GCC unroll 4
-      for (int v = 0; v < kVectors; ++v) store(e.phi_rate[k], v, loadSymmetric(e.bend, v) * turningMoment(e, k, v));
+      for (int v = 0; v < kVectors; ++v) {
+        const Lanes3 moment = load(e.dm[k], v) + cross(load(e.m, v), load(e.phi[k], v));
+        const Lanes3 rate = loadSymmetric(e.bend, v) * moment;
+        store(found.moment[k], v, moment);
+        store(found.missing[k], v, load(t.b, v) * (rate - load(e.phi_rate[k], v)));
+        store(e.phi_rate[k], v, rate);
+      }
       const Rows turn = integral(t, e.phi_rate[k]);
 #pragma GCC unroll 4
       for (int v = 0; v < kVectors; ++v) {
@@ -78,42 +97,87 @@ struct Columns : Collocation<kStages> {
     e.column_change = __builtin_sqrt(a + b);
   }
 
-  static void columnEnd(ElementState& e, const ElementColumns& start, ElementColumns& end) {
+  static LIVE_STIFFNESS_INLINE void columnEnd(ElementState& e, const ElementColumns& start, const Lanes (&along)[18],
+                                              const double (&phi_end)[6][3], ElementColumns& end) {
     static constexpr int kSymmetric[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
-    const GaussLegendre& t = table();
-    Lanes along[18];
-    StageRow moment[6][3], missing[6][3];  // turning moment; phi' that it demands less that which phi was made of
-    for (int k = 0; k < 6; ++k) {
-      updateMoments(t, e, start, k);
-      Lanes3 p{};
-#pragma GCC unroll 4
-      for (int v = 0; v < kVectors; ++v) {
-        p = p + load(t.b, v) * (loadMatrix(e.p_of_phi, v) * load(e.phi[k], v));
-        const Lanes3 turning = turningMoment(e, k, v);
-        store(moment[k], v, turning);
-        store(missing[k], v, load(t.b, v) * (loadSymmetric(e.bend, v) * turning - load(e.phi_rate[k], v)));
-      }
-      along[3 * k] = p.x, along[3 * k + 1] = p.y, along[3 * k + 2] = p.z;
-    }
-    double moved[18], defect[36];
+    double moved[18];
     sums(along, moved);
+    for (int k = 0; k < 6; ++k)
+      for (int i = 0; i < 3; ++i) {
+        end.p[k][i] = start.p[k][i] + moved[3 * k + i] + (k >= 3 ? e.stretch[kSymmetric[i][k - 3]] : 0.0);
+        end.phi[k][i] = phi_end[k][i];
+        end.m[k][i] = e.dm[k][i][kStages];
+      }
+    estimateTruncation(table(), e, end);
+  }
+
+  // Of the columns that the last pass started from.
+  static LIVE_STIFFNESS_INLINE void addDefect(const Found& found, const ElementColumns& start, ElementColumns& end) {
     Lanes work[36];
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j < 6; ++j) {
-        Lanes total = dot(load(moment[i], 0), load(missing[j], 0));
-        for (int v = 1; v < kVectors; ++v) total += dot(load(moment[i], v), load(missing[j], v));
+        Lanes total = dot(load(found.moment[i], 0), load(found.missing[j], 0));
+        for (int v = 1; v < kVectors; ++v) total += dot(load(found.moment[i], v), load(found.missing[j], v));
         work[6 * i + j] = total;
       }
+    double defect[36];
     sums(work, defect);
-    for (int k = 0; k < 6; ++k) {
-      for (int i = 0; i < 3; ++i) {
-        end.p[k][i] = start.p[k][i] + moved[3 * k + i] + (k >= 3 ? e.stretch[kSymmetric[i][k - 3]] : 0.0);
-        end.phi[k][i] = e.phi[k][i][kStages];
-        end.m[k][i] = e.dm[k][i][kStages];
+    for (int i = 0; i < 36; ++i) (&end.defect[0][0])[i] = (&start.defect[0][0])[i] + defect[i];
+  }
+
+  static void reset(ElementState& e, const ElementColumns& start) {
+    for (int k = 0; k < 6; ++k)
+      for (int v = 0; v < kVectors; ++v) {
+        store(e.phi[k], v, splat(start.phi[k]));
+        store(e.phi_rate[k], v, Lanes3{});
       }
-      for (int j = 0; j < 6; ++j) end.defect[k][j] = start.defect[k][j] + defect[6 * k + j];
+  }
+
+  // The columns held go on from where those before them end now.
+  static LIVE_STIFFNESS_INLINE void moveStart(ElementState& e, const ElementColumns& start) {
+    for (int k = 0; k < 6; ++k) {
+      const Lanes3 step = splat({start.phi[k][0] - e.phi_start[k][0], start.phi[k][1] - e.phi_start[k][1],
+                                 start.phi[k][2] - e.phi_start[k][2]});
+      for (int v = 0; v < kVectors; ++v) store(e.phi[k], v, load(e.phi[k], v) + step);
     }
-    estimateTruncation(t, e, end);
+  }
+
+  // See propagate() in rod_element.h.
+  static double propagate(ElementState& e, bool anew, const ElementColumns& start, double goal, bool with_defect,
+                          ElementColumns& end) {
+    constexpr int kMaxPasses = 60;
+    if (anew) reset(e, start);
+    else moveStart(e, start);
+    linearise(e);
+    for (int k = 0; k < 6; ++k)
+      for (int i = 0; i < 3; ++i) e.phi_start[k][i] = start.phi[k][i];
+    double last_change = __builtin_inf();
+    Found found;
+    for (int i = 0; i < kMaxPasses; ++i) {
+      columnPass(e, start, found);
+      const double change = e.column_change;
+      // What is left after a pass is about its change times the rate at which changes shrink.
+      const double rate = i > 0 && change < 0.2 * last_change ? change / last_change : 0.2;
+      const double left = with_defect ? change : change * rate;
+      if (left <= goal || (change <= 1e-13 && change >= last_change)) {
+        if (with_defect) {
+          columnEnd(e, start, found.along, found.phi_end, end);
+          addDefect(found, start, end);
+        } else {
+          for (int k = 0; k < 6; ++k) {
+            updateMoments(table(), e, start, k);
+            move(table(), e, k, found.along);
+            for (int i = 0; i < 3; ++i) found.phi_end[k][i] = e.phi[k][i][kStages];
+          }
+          columnEnd(e, start, found.along, found.phi_end, end);
+        }
+        return left;
+      }
+      if (!__builtin_isfinite(change)) break;
+      last_change = change;
+    }
+    reset(e, start);
+    return __builtin_inf();
   }
 
   // As that of the shape, which says nothing of a straight rod under load.

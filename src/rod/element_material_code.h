@@ -3,7 +3,8 @@
 // than they do, so it is denser than the stages, the denser the more the element bends. One lane is one node, or one
 // station.
 
-#include "rod/element_section_code.h"
+#include "rod/element_arc_code.h"
+#include "rod/packed_compliance_code.h"
 
 namespace live_stiffness {
 namespace {
@@ -46,7 +47,7 @@ struct Material {
   }
 
   // One more pass on the dense nodes: makes collocation about twenty times more accurate between its own.
-  static void improve(ElementState& e, Vectors& g) {
+  static LIVE_STIFFNESS_INLINE void improve(const ElementState& e, Vectors& g, Vectors& g_rate) {
     const GaussLegendre& t = table();
     const Lanes h = splat(e.length);
     double n_start[3], m_start[3], line_load[3];
@@ -61,84 +62,101 @@ struct Material {
       store(rate, v, cross(n, tangentOf(e, R[v].z, n)));
     }
     const Vectors moment = integral(rate);
-    for (int v = 0; v < kVectors; ++v)
-      store(rate, v, cayleyRate(g.at[v], curvatureOf(e, R[v], splat(m_start) + h * moment.at[v])));
+    for (int v = 0; v < kVectors; ++v) {
+      g_rate.at[v] = cayleyRate(g.at[v], curvatureOf(e, R[v], splat(m_start) + h * moment.at[v]));
+      store(rate, v, g_rate.at[v]);
+    }
     const Vectors turn = integral(rate);
     for (int v = 0; v < kVectors; ++v) g.at[v] = h * turn.at[v];
-    fillSeries(e, t, kDense, rate);
   }
 
-  // Legendre coefficients of the rate of g, times length, from its values at n nodes.
-  template <class Row>
-  static LIVE_STIFFNESS_INLINE void fillSeries(ElementState& e, const GaussLegendre& t, int n, const Row (&rate)[3]) {
-    e.series_terms = n;
-    for (int k = 0; k < n; ++k) {
-      double x = 0.0, y = 0.0, z = 0.0;
-      for (int j = 0; j < n; ++j) {
-        const double c = e.length * t.legendre[k][j];
-        x += c * rate[0][j], y += c * rate[1][j], z += c * rate[2][j];
+  // g and its rate at the dense nodes.
+  static LIVE_STIFFNESS_INLINE void rotations(const ElementState& e, int stages, bool unloaded, bool improved,
+                                              Vectors& g, Vectors& g_rate) {
+    if (unloaded) {
+      const Lanes3 u = splat(e.rest_curvature);
+      for (int v = 0; v < kVectors; ++v) {
+        g.at[v] = cayleyOfRotation((splat(e.length) * load(table().c, v)) * u);
+        g_rate.at[v] = cayleyRate(g.at[v], u);
       }
-      e.g_rate_series[k][0] = x, e.g_rate_series[k][1] = y, e.g_rate_series[k][2] = z;
+      return;
     }
+    const NodeTransfer& from = transfer(stages);
+    const double per_length = 1.0 / e.length;
+    for (int j = 0; j < stages; ++j) {
+      const Lanes3 at = splat({e.g[0][j], e.g[1][j], e.g[2][j]});
+      for (int v = 0; v < kVectors; ++v) {
+        g.at[v] = g.at[v] + load(from.value[j], v) * at;
+        g_rate.at[v] = g_rate.at[v] + (per_length * load(from.slope[j], v)) * at;
+      }
+    }
+    if (improved) improve(e, g, g_rate);
   }
 
   // With r from the start to the node: [S - K hat(r), K; K^T, B], K = hat(r) B, the integrand of (10).
   static void material(ElementState& e, int stages, bool unloaded, bool improved) {
     const GaussLegendre& t = table();
     const Lanes h = splat(e.length);
-    Vectors g{};
-    if (unloaded) {
-      for (int v = 0; v < kVectors; ++v) g.at[v] = cayleyOfRotation((h * load(t.c, v)) * splat(e.rest_curvature));
-    } else {
-      const NodeTransfer& from = transfer(stages);
-      for (int j = 0; j < stages; ++j) {
-        const Lanes x = splat(e.length * e.g_rate[0][j]), y = splat(e.length * e.g_rate[1][j]), z = splat(e.length * e.g_rate[2][j]);
-        for (int v = 0; v < kVectors; ++v) {
-          const Lanes a = load(from.integral[j], v);
-          g.at[v].x += a * x, g.at[v].y += a * y, g.at[v].z += a * z;
-        }
-      }
-      if (improved) improve(e, g);
-      else fillSeries(e, gaussLegendre(stages), stages, e.g_rate);
-    }
+    Vectors g{}, g_rate{};
+    rotations(e, stages, unloaded, improved, g, g_rate);
     const LanesMatrix R_start = splatMatrix(e.R_start);
     const Lanes3 n_start = splat(e.n_start), reach = h * splat(e.line_load);
     LanesMatrix R[kVectors];
-    Lanes3 missing{};
+    NodeRow tangent_row[3];
+    Lanes3 tangent[kVectors], missing{};
     for (int v = 0; v < kVectors; ++v) {
       R[v] = R_start * cayley(g.at[v]);
-      const Lanes3 tangent = tangentOf(e, R[v].z, n_start - load(t.c, v) * reach);
-      store(e.dense_tangent, v, tangent);
-      missing = missing - load(t.b, v) * tangent;
+      tangent[v] = tangentOf(e, R[v].z, n_start - load(t.c, v) * reach);
+      missing = missing - load(t.b, v) * tangent[v];
     }
     // Collocation is more accurate at the end than on the way; a constant takes the difference out.
     const double per_length = 1.0 / e.length;
     const Lanes3 constant{splat(sum(missing.x) + per_length * e.offset_end[0]),
                           splat(sum(missing.y) + per_length * e.offset_end[1]),
                           splat(sum(missing.z) + per_length * e.offset_end[2])};
-    for (int v = 0; v < kVectors; ++v) store(e.dense_tangent, v, load(e.dense_tangent, v) + constant);
-    const Vectors offset = integral(e.dense_tangent);
     for (int v = 0; v < kVectors; ++v) {
-      const Lanes3 r = h * offset.at[v];
+      tangent[v] = tangent[v] + constant;
+      store(tangent_row, v, tangent[v]);
+    }
+    const Vectors offset = integral(tangent_row);
+    for (int v = 0; v < kVectors; ++v) {
+      const Lanes3 r = h * offset.at[v], q = g_rate.at[v];
       const LanesMatrix B = bendOf(e, R[v]), S = stretchOf(e, R[v].z);
       const LanesMatrix K{cross(r, B.x), cross(r, B.y), cross(r, B.z)}, Kr = timesHat(K, r);
-      storeSymmetric(e.density, v, LanesMatrix{S.x - Kr.x, S.y - Kr.y, S.z - Kr.z});
-      storeMatrix(e.density + 6, v, K);
-      storeSymmetric(e.density + 15, v, B);
+      const Lanes row[kDenseRow] = {S.x.x - Kr.x.x, S.y.x - Kr.y.x, S.z.x - Kr.z.x, S.y.y - Kr.y.y, S.z.y - Kr.z.y,
+                                    S.z.z - Kr.z.z, K.x.x, K.y.x, K.z.x, K.x.y, K.y.y, K.z.y, K.x.z, K.y.z, K.z.z,
+                                    B.x.x, B.y.x, B.z.x, B.y.y, B.z.y, B.z.z, tangent[v].x, tangent[v].y, tangent[v].z,
+                                    q.x, q.y, q.z, Lanes{}};
+      double* nodes[kLanes];
+      for (int lane = 0; lane < kLanes; ++lane) nodes[lane] = e.dense[kLanes * v + lane];
+      storeAcross(row, nodes);
     }
-    Lanes total[kPackedSize];
-    for (int i = 0; i < kPackedSize; ++i) {
-      total[i] = h * load(t.b, 0) * load(e.density[i], 0);
-      for (int v = 1; v < kVectors; ++v) total[i] += h * load(t.b, v) * load(e.density[i], v);
-    }
-    sums(total, e.compliance);
+    double weight[kDense];
+    for (int j = 0; j < kDense; ++j) weight[j] = e.length * t.b[j];
+    weighted<kPackedRow>(e, weight, e.compliance);
   }
 
-  // Everything as Legendre series in x, integrated from 0 to x, which is exactly nothing at x = 0:
+  // Sum of the first n of the rows, weighted.
+  template <int n>
+  static LIVE_STIFFNESS_INLINE void weighted(const ElementState& e, const double* weight, double* total) {
+    constexpr int kRowVectors = n / kLanes;
+    Lanes sum[kRowVectors];
+    for (int i = 0; i < kRowVectors; ++i) sum[i] = splat(weight[0]) * load(e.dense[0], i);
+#pragma GCC unroll 12
+    for (int j = 1; j < kDense; ++j) {
+      const Lanes w = splat(weight[j]);
+#pragma GCC unroll 14
+      for (int i = 0; i < kRowVectors; ++i) sum[i] += w * load(e.dense[j], i);
+    }
+    for (int i = 0; i < kRowVectors; ++i) store(total, i, sum[i]);
+  }
+
+  // Weights, one row a lane, of integrals from 0 to x, times length: as Legendre series, which are exactly nothing at
+  // x = 0:
   //   int P_k(xi) dx = (xi^2 - 1) P_k'(xi) / (2 k (k + 1)),  P_{k+1}' = P_{k-1}' + (2 k + 1) P_k,  xi = 2 x - 1.
-  static void stations(const ElementState& e, const StationBatch& s, int v) {
+  static LIVE_STIFFNESS_INLINE void weights(Lanes x, double length, double (*of_lane)[kMaxNodes]) {
     const GaussLegendre& t = table();
-    const Lanes x = load(s.fraction, v), xi = 2.0 * x - 1.0, bubble = 2.0 * x * (x - 1.0);
+    const Lanes xi = 2.0 * x - 1.0, bubble = 2.0 * x * (x - 1.0);
     Lanes integral[kDense], before = splat(1.0), now = xi, slope_before{}, slope = splat(1.0);
     integral[0] = x;
 #pragma GCC unroll 12
@@ -149,51 +167,32 @@ struct Material {
       slope_before = slope, slope = next_slope;
       before = now, now = next;
     }
-    Lanes3 g{};
-    if (e.unloaded) g = cayleyOfRotation((e.length * x) * splat(e.rest_curvature));
-    else for (int k = 0; k < e.series_terms; ++k) g = g + integral[k] * splat(e.g_rate_series[k]);
-    const LanesMatrix R = splatMatrix(e.R_start) * cayley(g);
-
-    Lanes weight[kDense];
 #pragma GCC unroll 12
-    for (int k = 0; k < kDense; ++k) integral[k] *= e.length;
+    for (int k = 0; k < kDense; ++k) integral[k] *= length;
+    Lanes weight[kDense];
 #pragma GCC unroll 12
     for (int j = 0; j < kDense; ++j) {
       weight[j] = integral[0] * t.legendre[0][j];
 #pragma GCC unroll 12
       for (int k = 1; k < kDense; ++k) weight[j] += integral[k] * t.legendre[k][j];
     }
-    const auto upTo = [&](const NodeRow& row) {
-      Lanes total = weight[0] * row[0];
-#pragma GCC unroll 12
-      for (int j = 1; j < kDense; ++j) total += weight[j] * row[j];
-      return total;
-    };
-    const Lanes3 r{upTo(e.dense_tangent[0]), upTo(e.dense_tangent[1]), upTo(e.dense_tangent[2])};
-    Lanes c[kPackedSize];
-    #pragma GCC unroll 21
-    for (int i = 0; i < kPackedSize; ++i) c[i] = s.start_compliance[i] + upTo(e.density[i]);
-    // From the element's start to the section: K -> K - hat(r) W, P -> P - hat(r) K^T + K_new hat(r).
-    const LanesMatrix P{{c[0], c[1], c[2]}, {c[1], c[3], c[4]}, {c[2], c[4], c[5]}};
-    const LanesMatrix K{{c[6], c[9], c[12]}, {c[7], c[10], c[13]}, {c[8], c[11], c[14]}};
-    const LanesMatrix W{{c[15], c[16], c[17]}, {c[16], c[18], c[19]}, {c[17], c[19], c[20]}};
-    const LanesMatrix K_new{K.x - cross(r, W.x), K.y - cross(r, W.y), K.z - cross(r, W.z)};
-    const LanesMatrix a{cross(r, Lanes3{K.x.x, K.y.x, K.z.x}), cross(r, Lanes3{K.x.y, K.y.y, K.z.y}),
-                        cross(r, Lanes3{K.x.z, K.y.z, K.z.z})};
-    const LanesMatrix b = timesHat(K_new, r);
-    const LanesMatrix P_new{P.x - a.x + b.x, P.y - a.y + b.y, P.z - a.z + b.z};
+    double* lanes[kLanes];
+    for (int lane = 0; lane < kLanes; ++lane) lanes[lane] = of_lane[lane];
+    storeAcross(weight, lanes);
+  }
 
-    const Lanes3 p = splat(s.p_start) + r;
-    const Lanes pose[12] = {R.x.x, R.x.y, R.x.z, R.y.x, R.y.y, R.y.z, R.z.x, R.z.y, R.z.z, p.x, p.y, p.z};
-    const Lanes compliance[36] = {
-        P_new.x.x, P_new.x.y, P_new.x.z, K_new.x.x, K_new.y.x, K_new.z.x,  //
-        P_new.x.y, P_new.y.y, P_new.y.z, K_new.x.y, K_new.y.y, K_new.z.y,  //
-        P_new.x.z, P_new.y.z, P_new.z.z, K_new.x.z, K_new.y.z, K_new.z.z,  //
-        K_new.x.x, K_new.x.y, K_new.x.z, W.x.x,     W.x.y,     W.x.z,      //
-        K_new.y.x, K_new.y.y, K_new.y.z, W.x.y,     W.y.y,     W.y.z,      //
-        K_new.z.x, K_new.z.y, K_new.z.z, W.x.z,     W.y.z,     W.z.z};
-    storeAcross(pose, s.pose + kLanes * v);
-    storeAcross(compliance, s.compliance + kLanes * v);
+  static void stations(const ElementState& e, const StationBatch& s, int v) {
+    const Lanes x = load(s.fraction, v);
+    double weight[kLanes][kMaxNodes] __attribute__((aligned(32)));
+    weights(x, e.length, weight);
+    double total[kLanes][kDenseRow] __attribute__((aligned(32)));
+    for (int lane = 0; lane < kLanes; ++lane) weighted<kDenseRow>(e, weight[lane], total[lane]);
+    Lanes row[kDenseRow];
+    loadAcross(total, row);
+    Lanes3 g{row[kDenseRate], row[kDenseRate + 1], row[kDenseRate + 2]};
+    if (e.unloaded) g = cayleyOfRotation((e.length * x) * splat(e.rest_curvature));
+    const LanesMatrix R = splatMatrix(e.R_start) * cayley(g);
+    storeSections(e, s, v, R, {row[kDenseTangent], row[kDenseTangent + 1], row[kDenseTangent + 2]}, row);
   }
 };
 
@@ -228,29 +227,30 @@ struct MaterialChoice {
       improved = e.interior_error > accuracy;
       error = improved ? e.interior_error / kImprovement : e.interior_error;
     }
-    e.unloaded = unloaded;
-    if (kStages <= 4 && interpolationError<4>(bending) <= accuracy) run<4>(e, bending, error, improved);
-    else if (interpolationError<8>(bending) <= accuracy) run<8>(e, bending, error, improved);
-    else run<12>(e, bending, error, improved);
+    e.is_arc = false;
+    if (kStages <= 4 && interpolationError<4>(bending) <= accuracy) run<4>(e, unloaded, bending, error, improved);
+    else if (interpolationError<8>(bending) <= accuracy) run<8>(e, unloaded, bending, error, improved);
+    else run<12>(e, unloaded, bending, error, improved);
   }
 
   static void stations(const ElementState& e, const StationBatch& s) {
     for (int v = 0; kLanes * v < s.size; ++v) {
-      switch (e.dense_nodes) {
-        case 4: Material<4>::stations(e, s, v); break;
-        case 8: Material<8>::stations(e, s, v); break;
-        default: Material<12>::stations(e, s, v);
-      }
+      if (e.is_arc) arcStations(e, s, v);
+      else if (e.dense_nodes == 4) Material<4>::stations(e, s, v);
+      else if (e.dense_nodes == 8) Material<8>::stations(e, s, v);
+      else Material<12>::stations(e, s, v);
     }
   }
 
  private:
   template <int kDense>
-  static LIVE_STIFFNESS_INLINE void run(ElementState& e, double bending, double collocation_error, bool improved) {
+  static LIVE_STIFFNESS_INLINE void run(ElementState& e, bool unloaded, double bending, double collocation_error,
+                                        bool improved) {
     e.dense_nodes = kDense;
+    e.unloaded = unloaded;
     e.station_error = interpolationError<kDense>(bending) + collocation_error;
     e.compliance_error = quadratureError<kDense>(bending);
-    Material<kDense>::material(e, kStages, e.unloaded, improved);
+    Material<kDense>::material(e, kStages, unloaded, improved);
   }
 };
 

@@ -1,10 +1,9 @@
 #pragma once
-// All that is done to an element, for one instruction set.
+// All that is done to elements and chains, for one instruction set.
 
-#include "rod/element_columns_code.h"
-#include "rod/element_material_code.h"
+#include "rod/chain_code.h"
 #include "rod/element_passes_tables.h"
-#include "rod/element_shape_code.h"
+#include "rod/tangent_code.h"
 
 namespace live_stiffness {
 namespace {
@@ -14,8 +13,10 @@ constexpr ElementPasses passesOf() {
   using S = Shape<kStages>;
   using C = Columns<kStages>;
   using M = MaterialChoice<kStages>;
-  return {kStages,      S::template pass<false>, S::finish,   S::placeUnloaded, C::linearise,
-          C::columnPass, S::follow,               C::columnEnd, M::material,      M::stations};
+  using All = ChainPasses<kStages>;
+  return {kStages,   S::resetGuess, S::predict,  S::pass, S::integrate,    S::placeUnloaded,
+          S::follow, C::propagate,  M::material, All::addCompliance, M::stations, All::sweep,      All::followAll,
+          All::columns, tangent, All::accumulate, All::placeChain};
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
-// The section's law and what else shape, columns and material compliance of an element share. In body axes the actuation
-// wrench of a fluidic segment is constant along it, so it is a rest strain and not a load (see docs/derivation.md):
+// The section's law and what else shape, columns and material compliance of an element share. In body axes the
+// actuation wrench of a fluidic segment is constant along it, so it is a rest strain and not a load (see
+// docs/derivation.md):
 //   v = e3 + c_se R^T n,   u = u_rest + c_bt R^T m                                             (7), (9), (37)
 // with n, m the external loads only.
 

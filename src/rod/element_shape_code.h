@@ -15,39 +15,49 @@ struct Shape : Collocation<kStages> {
   using typename Base::Rows;
   using Base::integral, Base::table, Base::kVectors;
 
-  template <bool kFinish>
-  static void pass(ElementState& e) {
-    const GaussLegendre& t = table();
+  // What the sections' orientations determine, in the axes of the start.
+  struct Section {
+    LanesMatrix R;
+    Lanes3 n, tangent;
+  };
+  struct Sections {
+    Section at[kVectors];
+    Rows moment;
+  };
+  static LIVE_STIFFNESS_INLINE Sections sections(const GaussLegendre& t, const ElementState& e) {
     const Lanes h = splat(e.length);
-    double n_start[3], m_start[3], line_load[3];  // in the axes of the start, as everything below
+    double n_start[3], m_start[3], line_load[3];
     rotateBack(e.R_start, e.n_start, n_start);
     rotateBack(e.R_start, e.m_start, m_start);
     rotateBack(e.R_start, e.line_load, line_load);
     const double reach[3] = {e.length * line_load[0], e.length * line_load[1], e.length * line_load[2]};
-
-    LanesMatrix R[kVectors];
+    Sections all;
     Rows follower{};
-    for (int v = 0; v < kVectors; ++v) R[v] = cayley(load(e.g, v));
+    for (int v = 0; v < kVectors; ++v) all.at[v].R = cayley(load(e.g, v));
     if (e.follows) {
       StageRow f[3];
-      for (int v = 0; v < kVectors; ++v) store(f, v, R[v] * splat(e.follower_load));
+      for (int v = 0; v < kVectors; ++v) store(f, v, all.at[v].R * splat(e.follower_load));
       follower = integral(t, f);
     }
-    StageRow m_rate[3], n_rows[3], m_rows[3];
-    Lanes3 tangent[kVectors];
+    StageRow m_rate[3];
     for (int v = 0; v < kVectors; ++v) {
-      Lanes3 n = splat(n_start) - load(t.c, v) * splat(reach);
-      if (e.follows) n = n - h * follower.at[v];
-      tangent[v] = tangentOf(e, R[v].z, n);
-      store(m_rate, v, cross(n, tangent[v]));
-      store(n_rows, v, n);
+      Section& section = all.at[v];
+      section.n = splat(n_start) - load(t.c, v) * splat(reach);
+      if (e.follows) section.n = section.n - h * follower.at[v];
+      section.tangent = tangentOf(e, section.R.z, section.n);
+      store(m_rate, v, cross(section.n, section.tangent));
     }
     const Rows moment = integral(t, m_rate);
-    for (int v = 0; v < kVectors; ++v) {
-      const Lanes3 m = splat(m_start) + h * moment.at[v];
-      store(e.g_rate, v, cayleyRate(load(e.g, v), curvatureOf(e, R[v], m)));
-      store(m_rows, v, m);
-    }
+    for (int v = 0; v < kVectors; ++v) all.moment.at[v] = splat(m_start) + h * moment.at[v];
+    return all;
+  }
+
+  static void pass(ElementState& e) {
+    const GaussLegendre& t = table();
+    const Lanes h = splat(e.length);
+    const Sections all = sections(t, e);
+    for (int v = 0; v < kVectors; ++v)
+      store(e.g_rate, v, cayleyRate(load(e.g, v), curvatureOf(e, all.at[v].R, all.moment.at[v])));
     const Rows next = integral(t, e.g_rate);
     Lanes change{}, size{};
     for (int v = 0; v < kVectors; ++v) {
@@ -58,25 +68,34 @@ struct Shape : Collocation<kStages> {
     }
     e.change = __builtin_sqrt(sum(change));
     e.size = __builtin_sqrt(sum(size));
-    endState(e, n_rows, m_rows);
-    if (!kFinish) return;
+    endLoads(e, all.at[kVectors - 1].n, all.moment.at[kVectors - 1]);
+  }
 
+  // The shape at the nodes and the end from g as it is.
+  static void evaluate(ElementState& e) {
+    const GaussLegendre& t = table();
+    const Lanes h = splat(e.length);
+    const Sections all = sections(t, e);
     const LanesMatrix R_start = splatMatrix(e.R_start);
     for (int v = 0; v < kVectors; ++v) {
-      storeMatrix(e.R, v, R_start * R[v]);
-      store(e.tangent, v, R_start * tangent[v]);
-      store(e.n, v, R_start * load(n_rows, v));
-      store(e.m, v, R_start * load(m_rows, v));
+      storeMatrix(e.R, v, R_start * all.at[v].R);
+      store(e.tangent, v, R_start * all.at[v].tangent);
+      store(e.n, v, R_start * all.at[v].n);
+      store(e.m, v, R_start * all.moment.at[v]);
     }
     const Rows offset = integral(t, e.tangent);
     for (int v = 0; v < kVectors; ++v) store(e.offset, v, h * offset.at[v]);
     for (int i = 0; i < 3; ++i) e.offset_end[i] = e.offset[i][kStages];
+    endLoads(e, all.at[kVectors - 1].n, all.moment.at[kVectors - 1]);
+    endRotation(e);
     estimateTruncation(e, t);
   }
-  static LIVE_STIFFNESS_INLINE void endState(ElementState& e, const StageRow (&n)[3], const StageRow (&m)[3]) {
-    rotate(e.R_start, {n[0][kStages], n[1][kStages], n[2][kStages]}, e.n_end);
-    rotate(e.R_start, {m[0][kStages], m[1][kStages], m[2][kStages]}, e.m_end);
-    endRotation(e);
+
+  // n, m: of the vector that holds the end.
+  static LIVE_STIFFNESS_INLINE void endLoads(ElementState& e, const Lanes3& n, const Lanes3& m) {
+    constexpr int kLane = kStages - kLanes * (kVectors - 1);
+    rotate(e.R_start, {n.x[kLane], n.y[kLane], n.z[kLane]}, e.n_end);
+    rotate(e.R_start, {m.x[kLane], m.y[kLane], m.z[kLane]}, e.m_end);
   }
 
   static LIVE_STIFFNESS_INLINE void endRotation(ElementState& e) {
@@ -113,7 +132,66 @@ struct Shape : Collocation<kStages> {
     shrink = shrink < kDecay ? kDecay : shrink > 1.0 ? 1.0 : shrink;
     e.interior_error = e.truncation * shrink / kStages;
   }
-  static void finish(ElementState& e) { pass<true>(e); }
+
+  static void resetGuess(ElementState& e) {
+    const GaussLegendre& t = table();
+    double m[3];
+    rotateBack(e.R_start, e.m_start, m);
+    const double u[3] = {e.rest_curvature[0] + e.bend_xx * m[0] + e.bend_xy * m[1],
+                         e.rest_curvature[1] + e.bend_xy * m[0] + e.bend_yy * m[1],
+                         e.rest_curvature[2] + e.torsion * m[2]};
+    const double quarter = 0.25 * e.length * e.length * squaredNorm(u), third = (quarter < 1.0 ? quarter : 1.0) / 3.0;
+    for (int v = 0; v < kVectors; ++v) {
+      const Lanes c = load(t.c, v);
+      store(e.g, v, (e.length * c * (1.0 + third * c * c)) * splat(u));  // 2 tan(x / 2) from x
+    }
+  }
+
+  // Goes on by `steadiness` times the last change.
+  template <int n>
+  static LIVE_STIFFNESS_INLINE void extrapolate(double steadiness, StageRow (&now)[n], StageRow (&before)[n]) {
+    for (int k = 0; k < n; ++k)
+      for (int v = 0; v < kVectors; ++v) {
+        const Lanes x = load(now[k], v);
+        store(now[k], v, x + steadiness * (x - load(before[k], v)));
+        store(before[k], v, x);
+      }
+  }
+
+  static void predict(ElementState& e, const double (&turn)[3], double steadiness, bool with_columns) {
+    extrapolate(steadiness, e.g, e.g_before);
+    for (int i = 0; i < 3; ++i) {
+      const double more = turn[i] - steadiness * e.turn[i];
+      for (int v = 0; v < kVectors; ++v) store(e.g[i], v, load(e.g[i], v) + more * load(table().c, v));
+      e.turn[i] = turn[i];
+    }
+    if (!with_columns) return;
+    for (int k = 0; k < 6; ++k) {
+      extrapolate(steadiness, e.phi[k], e.phi_before[k]);
+      extrapolate(steadiness, e.phi_rate[k], e.phi_rate_before[k]);
+    }
+  }
+
+  static bool integrate(ElementState& e) {
+    constexpr int kMaxPasses = 80;
+    constexpr double kConverged = 2e-15;  // rad, relative to 1 + |g|
+    double last_change = __builtin_inf();
+    bool converged = false;
+    for (int i = 0; i < kMaxPasses && !converged; ++i) {
+      pass(e);
+      const double goal = kConverged * (1.0 + e.size);
+      if (!isSound(e)) break;  // NaN, or near the singularity at half a turn
+      // Rounding can leave a last-digit wobble just above the bound: stop there once it no longer shrinks.
+      converged = e.change <= goal || (e.change <= 20.0 * goal && e.change >= last_change);
+      last_change = e.change;
+    }
+    evaluate(e);
+    return converged;
+  }
+
+  // An element is trusted up to about 2.4 rad between its ends: 4 (kStages + 1) is the square of `size` there.
+  static LIVE_STIFFNESS_INLINE bool isSound(const ElementState& e) { return e.size * e.size <= 4.0 * (kStages + 1); }
+
   static void placeUnloaded(ElementState& e) {
     const GaussLegendre& t = table();
     const Lanes3 u = splat(e.rest_curvature);

@@ -11,12 +11,12 @@ namespace {
 #define LIVE_STIFFNESS_INLINE inline __attribute__((always_inline))
 
 constexpr int kLanes = LIVE_STIFFNESS_LANES;
-typedef double Lanes __attribute__((vector_size(8 * LIVE_STIFFNESS_LANES), may_alias));
+typedef double Lanes __attribute__((vector_size(8 * LIVE_STIFFNESS_LANES)));
 
 LIVE_STIFFNESS_INLINE Lanes load(const double* row, int v) { return reinterpret_cast<const Lanes*>(row)[v]; }
 LIVE_STIFFNESS_INLINE void store(double* row, int v, Lanes x) { reinterpret_cast<Lanes*>(row)[v] = x; }
 LIVE_STIFFNESS_INLINE void storeUnaligned(double* to, Lanes x) {
-  typedef double Unaligned __attribute__((vector_size(8 * LIVE_STIFFNESS_LANES), may_alias, aligned(8)));
+  typedef double Unaligned __attribute__((vector_size(8 * LIVE_STIFFNESS_LANES), aligned(8)));
   *reinterpret_cast<Unaligned*>(to) = x;
 }
 LIVE_STIFFNESS_INLINE Lanes splat(double x) { return x - Lanes{}; }  // minus: 0 + x would not be x for -0
@@ -34,7 +34,8 @@ LIVE_STIFFNESS_INLINE double sum(Lanes x) {
 #endif
 typedef long long LanesMask __attribute__((vector_size(8 * LIVE_STIFFNESS_LANES)));
 
-// Sums over the lanes of each row, and rows to one array a lane (out[lane][0...] = rows[...][lane]), a square at a time.
+// Sums over the lanes of each row, and rows to one array a lane (out[lane][0...] = rows[...][lane]), a square at a
+// time.
 LIVE_STIFFNESS_INLINE Lanes sumsOfSquare(const Lanes* rows) {
 #if LIVE_STIFFNESS_LANES == 4
   const Lanes a = LIVE_STIFFNESS_PICK(rows[0], rows[1], 0, 4, 2, 6) + LIVE_STIFFNESS_PICK(rows[0], rows[1], 1, 5, 3, 7);
@@ -69,6 +70,22 @@ LIVE_STIFFNESS_INLINE void storeAcross(const Lanes (&rows)[n], double* const* ou
   static_assert(n % kLanes == 0);
 #pragma GCC unroll 18
   for (int i = 0; i < n; i += kLanes) storeSquareAcross(rows + i, out, i);
+}
+
+// The same back: rows[...][lane] = in[lane][...].
+template <int n>
+LIVE_STIFFNESS_INLINE void loadAcross(const double (*in)[n], Lanes* rows) {
+  static_assert(n % kLanes == 0);
+#pragma GCC unroll 14
+  for (int i = 0; i < n / kLanes; ++i) {
+    Lanes square[kLanes];
+    double* out[kLanes];
+    for (int lane = 0; lane < kLanes; ++lane) {
+      square[lane] = load(in[lane], i);
+      out[lane] = reinterpret_cast<double*>(rows + kLanes * i + lane);
+    }
+    storeSquareAcross(square, out, 0);
+  }
 }
 
 struct Lanes3 {

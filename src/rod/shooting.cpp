@@ -1,70 +1,84 @@
 #include "live_stiffness/rod/shooting.h"
 
-#include <Eigen/Geometry>
-#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace live_stiffness {
 
-void prepare(const Chain& chain, const DeadLoads& loads, Backbone& backbone) {
-  const GaussLegendre& table = gaussLegendre(backbone.passes->stages);
+ChainState stateOf(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, Backbone& backbone) {
+  ChainState state;
+  state.parts = chain.parts.data();
+  state.part_count = static_cast<int>(chain.parts.size());
+  state.element_count = backbone.element_count.data();
+  state.elements = &backbone.elements.data()->state;
+  for (int i = 0; i < 3; ++i) {
+    state.gravity[i] = loads.gravity[i];
+    state.base_force[i] = loads.tip[i] + chain.mass * loads.gravity[i];
+    state.base_moment[i] = base_moment[i];
+    state.tip_offset[i] = chain.tip_offset[i];
+    state.tip_moment[i] = loads.tip[3 + i];
+  }
+  return state;
+}
+
+namespace {
+
+// Change of an element's rest curvature that `rest` brings, as the turn between its ends, rad.
+Vector3 turnOf(const ElementState& e, double length, const RestState& rest) {
+  return length * rest.curvature - e.length * Vector3(e.rest_curvature);
+}
+
+// The multiple of the last change that is nearest to this one, if it is near.
+double steadinessOf(const Chain& chain, const Backbone& backbone) {
+  constexpr double kNear = 0.1, kMost = 2.0;
+  double along = 0.0, last = 0.0, now = 0.0;
   auto element = backbone.elements.begin();
   for (const Chain::Part& part : chain.parts) {
     if (part.segment < 0) continue;
     const RestState& rest = backbone.rest[part.segment];
     const int count = backbone.element_count[part.segment];
-    const double length = rest.stretch * part.length;
     for (int k = 0; k < count; ++k, ++element) {
-      const Vector3 turn_before = element->state.length * Vector3(element->state.rest_curvature);
-      element->state.length = length / count;
-      element->start = k * element->state.length;
-      element->setSection(rest);
-      const Vector3 turn = element->state.length * rest.curvature - turn_before;
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j <= kMaxStages; ++j) element->state.g[i][j] += turn[i] * table.c[j];
-      element->setLoads(part.mass / length * loads.gravity);
+      const ElementState& e = element->state;
+      const Vector3 turn = turnOf(e, rest.stretch * part.length / count, rest), before(e.turn);
+      along += turn.dot(before);
+      last += before.squaredNorm();
+      now += turn.squaredNorm();
     }
   }
+  const double steadiness = along / last;
+  const bool is_steady =  // false if NaN
+      now - steadiness * along <= kNear * kNear * now && std::abs(steadiness) <= kMost;
+  return is_steady ? steadiness : 0.0;
+}
+
+}  // namespace
+
+double prepare(const Chain& chain, const DeadLoads& loads, Backbone& backbone, History history) {
+  const double steadiness = history == History::kNone ? 0.0 : steadinessOf(chain, backbone);
+  auto element = backbone.elements.begin();
+  for (const Chain::Part& part : chain.parts) {
+    if (part.segment < 0) continue;
+    const RestState& rest = backbone.rest[part.segment];
+    const int count = backbone.element_count[part.segment];
+    const double length = rest.stretch * part.length, own_length = length / count, density = part.mass / length;
+    for (int k = 0; k < count; ++k, ++element) {
+      ElementState& e = element->state;
+      const Vector3 turn = turnOf(e, own_length, rest);
+      backbone.passes->predict(e, {turn.x(), turn.y(), turn.z()}, steadiness, history == History::kColumns);
+      e.length = own_length;
+      e.start = k * own_length;
+      element->setSection(rest);
+      element->setLoads(density * loads.gravity);
+    }
+  }
+  return steadiness;
 }
 
 Sweep sweep(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, Pass pass, Backbone& backbone) {
-  Sweep result;
-  result.sound = true;
-  const double largest_size = largestSize(backbone.passes->stages);
-  Pose X;
-  Vector3 n = loads.baseForce(chain);
-  Vector3 m = base_moment;
-  auto element = backbone.elements.begin();
-  for (const Chain::Part& part : chain.parts) {
-    if (part.segment < 0) {
-      const Vector3 along = part.length * X.R.col(2);
-      const Vector3 weight = part.mass * loads.gravity;
-      n -= weight;
-      m -= along.cross(n) + 0.5 * along.cross(weight);
-      X.p += along;
-      continue;
-    }
-    for (int k = 0; k < backbone.element_count[part.segment]; ++k, ++element) {
-      element->setStart(X, n, m);
-      switch (pass) {
-        case Pass::kOnce: backbone.passes->pass(element->state); break;
-        case Pass::kFinish: backbone.passes->finish(element->state); break;
-        case Pass::kAnew:
-          resetGuess(*element);
-          result.sound = integrate(*backbone.passes, *element) && result.sound;
-      }
-      X = element->X_end();
-      n = element->n_end();
-      m = element->m_end();
-      result.change = std::max(result.change, element->state.change);
-      result.sound = result.sound && element->state.size <= largest_size;
-    }
-  }
-  const Vector3 offset = X.R * chain.tip_offset;
-  backbone.X_BT = {X.R, X.p + offset};
-  result.residual = m - offset.cross(n) - angular(loads.tip);
-  result.sound = result.sound && result.residual.allFinite();
-  return result;
+  SweepResult result;
+  backbone.passes->sweep(stateOf(chain, loads, base_moment, backbone), pass, result);
+  if (pass != Pass::kOnce) backbone.setTip(result.R_tip, result.p_tip);
+  return {Vector3(result.residual), result.change, result.sound};
 }
 
 bool shoot(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, bool nodes_hold_guess,
@@ -84,38 +98,9 @@ bool shoot(const Chain& chain, const DeadLoads& loads, const Vector3& base_momen
   return false;
 }
 
-double tipColumns(const Chain& chain, const DeadLoads& loads, bool fresh, double goal, Backbone& backbone,
-                  ElementColumns& columns) {
-  columns = {};
-  columnsOf(columns.m).leftCols<3>().setIdentity();
-  double change = 0.0;
-  const auto along_rigid = [&](const Vector3& along, const Vector3& n) {
-    const Matrix3X6 moved = -hat(along) * columnsOf(columns.phi);  // phi x along
-    columnsOf(columns.p) += moved;
-    columnsOf(columns.m) += hat(n) * moved;
-    columnsOf(columns.m).rightCols<3>() -= hat(along);
-  };
-  Matrix3 R = Matrix3::Identity();
-  Vector3 n = loads.baseForce(chain);
-  auto element = backbone.elements.begin();
-  for (const Chain::Part& part : chain.parts) {
-    if (part.segment < 0) {
-      const Vector3 weight = part.mass * loads.gravity;
-      n -= weight;
-      along_rigid(part.length * R.col(2), n + 0.5 * weight);  // the weight has half the lever
-      continue;
-    }
-    for (int k = 0; k < backbone.element_count[part.segment]; ++k, ++element) {
-      const ElementColumns start = columns;
-      if (fresh) resetColumns(start, element->state);
-      change = std::max(change, propagate(*backbone.passes, *element, start, goal, columns));
-    }
-    const RodElement& last = *std::prev(element);
-    R = last.X_end().R;
-    n = last.n_end();
-  }
-  if (!chain.tip_offset.isZero(0.0)) along_rigid(R * chain.tip_offset, n);
-  return change;
+double tipColumns(const Chain& chain, const DeadLoads& loads, bool anew, double goal, Backbone& backbone,
+                  ElementColumns& columns, bool with_defect) {
+  return backbone.passes->columns(stateOf(chain, loads, Vector3::Zero(), backbone), anew, goal, with_defect, columns);
 }
 
 }  // namespace live_stiffness

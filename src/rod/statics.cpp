@@ -8,6 +8,7 @@
 
 #include "live_stiffness/rod/conjugate_points.h"
 #include "live_stiffness/rod/kinematics.h"
+#include "live_stiffness/rod/stability.h"
 
 namespace live_stiffness {
 namespace {
@@ -18,65 +19,23 @@ constexpr double kResidualAccepted = 1e-8;  // rad, when rounding stops it short
 constexpr double kRoughColumns = 1e-2;      // relative error, enough for sweeps to converge
 constexpr double kFineColumns = 1e-12;      // for Newton steps where the residual is nearly singular, or huge
 constexpr double kMostAmplification = 1e6;
-
-// Compliance, [df; dM] to the twist of T, from the columns for [m0; f] with m0 = X df + Y dM: C = (Q + T^T G) T with
-// T = [X, Y; I, 0], Q the columns' twists and G their defect, if it is to be corrected. By hand, as Eigen takes thrice as long.
-void combine(const ElementColumns& columns, bool correct, const Matrix3& X, const Matrix3& Y, Matrix6& C) {
-  double H[6][6];  // column by column
-  for (int j = 0; j < 6; ++j)
-    for (int i = 0; i < 3; ++i) H[j][i] = columns.p[j][i], H[j][3 + i] = columns.phi[j][i];
-  if (correct) {
-    double T_transposed[3][6];  // its first three columns: [X^T; Y^T]
-    for (int k = 0; k < 3; ++k)
-      for (int i = 0; i < 3; ++i) T_transposed[k][i] = X(k, i), T_transposed[k][3 + i] = Y(k, i);
-    for (int j = 0; j < 6; ++j) {
-      const double g[3] = {columns.defect[0][j], columns.defect[1][j], columns.defect[2][j]};
-      for (int i = 0; i < 6; ++i)
-        H[j][i] += T_transposed[0][i] * g[0] + T_transposed[1][i] * g[1] + T_transposed[2][i] * g[2];
-      for (int i = 0; i < 3; ++i) H[j][i] += columns.defect[3 + i][j];
-    }
-  }
-  for (int j = 0; j < 3; ++j) {
-    double force[6], moment[6];
-    for (int i = 0; i < 6; ++i) {
-      force[i] = H[3 + j][i] + H[0][i] * X(0, j) + H[1][i] * X(1, j) + H[2][i] * X(2, j);
-      moment[i] = H[0][i] * Y(0, j) + H[1][i] * Y(1, j) + H[2][i] * Y(2, j);
-    }
-    for (int i = 0; i < 6; ++i) C(i, j) = force[i], C(i, 3 + j) = moment[i];
-  }
-}
-
-// All pivots of L D L^T of the symmetric part are positive, with `lifted` added to the diagonal of each block.
-bool isPositiveDefinite(const Matrix6& a, double lifted_linear, double lifted_angular) {
-  double l[6][6];
-#pragma GCC unroll 6
-  for (int j = 0; j < 6; ++j) {
-#pragma GCC unroll 6
-    for (int i = j + 1; i < 6; ++i) l[i][j] = 0.5 * (a(i, j) + a(j, i));
-    l[j][j] = a(j, j) + (j < 3 ? lifted_linear : lifted_angular);
-  }
-#pragma GCC unroll 6
-  for (int k = 0; k < 6; ++k) {
-    if (!(l[k][k] > 0.0)) return false;
-    const double inverse = 1.0 / l[k][k];
-#pragma GCC unroll 6
-    for (int j = k + 1; j < 6; ++j) {
-      const double factor = l[j][k] * inverse;
-#pragma GCC unroll 6
-      for (int i = j; i < 6; ++i) l[i][j] -= factor * l[i][k];
-    }
-  }
-  return true;
-}
+constexpr int kMaxSweeps = 40;
+constexpr double kSlowestRate = 0.2;        // at which sweeps may be counted on to converge
 
 }  // namespace
 
 StaticsSolver::StaticsSolver(const Scene& scene, double accuracy, int stages)
-    : chain_(scene), length_(scene.length()), accuracy_(accuracy), discretisation_(chain_, accuracy, stages) {}
+    : chain_(scene),
+      length_(scene.length()),
+      accuracy_(accuracy),
+      discretisation_(chain_, accuracy, stages),
+      rate_(kSlowestRate) {}
 
 void StaticsSolver::reset() {
   warm_ = has_columns_ = false;
+  solutions_ = 0;
   amplification_ = 1.0;
+  rate_ = kSlowestRate;
   discretisation_.reset();
 }
 
@@ -94,36 +53,43 @@ bool StaticsSolver::updateInverse(const DeadLoads& loads, double goal, Backbone&
 }
 
 // Sweeps of one pass an element, each followed by a step of the base moment with the kept inverse: shape and moment
-// converge together, linearly, by a factor of about ten a sweep. Without trouble it takes three to ten.
-bool StaticsSolver::quick(const DeadLoads& loads, bool has_inverse, Backbone& backbone, StaticsReport& report) {
-  constexpr int kMaxSweeps = 40, kSweepsBeforeInverse = 2;
-  constexpr double kSlowestRate = 0.2, kRounding = 1e-13;
+// converge together, linearly, by a factor of about ten a sweep. Without trouble it takes one to ten.
+bool StaticsSolver::quick(const DeadLoads& loads, bool has_inverse, int max_sweeps, Backbone& backbone,
+                          StaticsReport& report) {
+  constexpr int kSweepsBeforeInverse = 2;
+  constexpr double kRounding = 1e-13;
   const double goal = std::max(0.2 * accuracy_ / amplification_, 1e-15);
   if (!has_inverse && !warm_) residual_inverse_.setIdentity();  // right but for the load's own effect
-  double last = kInfinity, expected = kInfinity;
+  double last = kInfinity;
   int growing = 0;
-  for (int i = 0; i < kMaxSweeps && report.iterations < kMaxIterations; ++i) {
-    const bool make_inverse = !has_inverse && i >= kSweepsBeforeInverse;
-    const bool finish = expected <= goal || make_inverse;
+  ChainState chain = stateOf(chain_, loads, base_moment_, backbone);
+  SweepResult s;
+  for (int i = 0; i < max_sweeps && report.iterations < kMaxIterations; ++i) {
     ++report.iterations;
-    const Pass pass = !nodes_hold_guess_ ? Pass::kAnew : finish ? Pass::kFinish : Pass::kOnce;
-    const Sweep s = sweep(chain_, loads, base_moment_, pass, backbone);
+    backbone.passes->sweep(chain, nodes_hold_guess_ ? Pass::kOnce : Pass::kAnew, s);
     nodes_hold_guess_ = s.sound;
-    report.residual = bendingOf(s.residual);
-    const double error = std::max(s.change, report.residual);
+    const double error = std::max(s.change, bendingOf(Vector3(s.residual)));
     if (!s.sound || (growing += error > last) > 3) return false;
-    // The shape that a sweep finishes is the one it started from, so it is off by the change.
-    expected = error * (i == 0 ? 0.5 * kSlowestRate : std::min(kSlowestRate, error / last));
-    report.iteration = s.change;
-    const bool at_rounding = error <= kRounding && error >= 0.5 * last;
-    if (finish && has_inverse && (error <= goal || at_rounding)) return true;
-    if (error <= kRounding && error > 0.3 * last) expected = 0.0;
-    last = error;
-    if (make_inverse && !(has_inverse = updateInverse(loads, kRoughColumns, backbone))) return false;
-    const Vector3 step = -residual_inverse_ * s.residual;
+    if (!has_inverse && i >= kSweepsBeforeInverse) {
+      SweepResult unchanged;
+      backbone.passes->sweep(chain, Pass::kShape, unchanged);
+      if (!(has_inverse = updateInverse(loads, kRoughColumns, backbone))) return false;
+    }
+    const Vector3 step = -residual_inverse_ * Vector3(s.residual);
     base_moment_ += step;
-    if (!has_inverse) continue;
-    for (RodElement& element : backbone.elements) backbone.passes->follow(element.state, {step.x(), step.y(), step.z()});
+    for (int k = 0; k < 3; ++k) chain.base_moment[k] = base_moment_[k];
+    if (has_inverse) backbone.passes->follow_all(chain, {step.x(), step.y(), step.z()});
+    // A single sweep shows no rate: then that of the last solve with several counts.
+    if (i > 0) rate_ = std::min(kSlowestRate, error / last);
+    const bool at_rounding = error <= kRounding && error > 0.3 * last;
+    report.iteration = at_rounding ? error : rate_ * error;
+    last = error;
+    if (!has_inverse || (report.iteration > goal && !at_rounding)) continue;
+    backbone.passes->sweep(chain, Pass::kShape, s);
+    report.residual = bendingOf(Vector3(s.residual));
+    if (report.residual > goal && !at_rounding) continue;
+    backbone.setTip(s.R_tip, s.p_tip);
+    return true;
   }
   return false;
 }
@@ -183,6 +149,7 @@ bool StaticsSolver::newton(const DeadLoads& loads, Backbone& backbone, int max_i
 void StaticsSolver::forgetGuesses(const DeadLoads& loads, Backbone& backbone) {
   prepare(chain_, loads, backbone);
   warm_ = has_columns_ = nodes_hold_guess_ = false;
+  solutions_ = 0;
 }
 
 // The unloaded shape, and the base moment that the loads would exert on it.
@@ -202,7 +169,7 @@ void StaticsSolver::placeFresh(const DeadLoads& loads, Backbone& backbone) {
     }
     const int count = backbone.element_count[part.segment];
     for (int k = 0; k < count; ++k, ++element) {
-      Vector3 centre = element->p_start;
+      Vector3 centre = element->p_start();
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < table.nodes; ++j) centre[i] += table.b[j] * element->state.offset[i][j];
       base_moment_ += centre.cross(part.mass / count * loads.gravity);
@@ -211,19 +178,31 @@ void StaticsSolver::placeFresh(const DeadLoads& loads, Backbone& backbone) {
   }
 }
 
-void StaticsSolver::placeUnloaded(Backbone& backbone) {
+void StaticsSolver::prepareUnloaded(Backbone& backbone) {
   warm_ = has_columns_ = false;
+  solutions_ = 0;
   discretisation_.chooseUnloaded(backbone);
-  live_stiffness::placeUnloaded(chain_, backbone);
+  prepare(chain_, DeadLoads(), backbone);
+}
+
+// A guess from the last solutions. Where one pass over the columns is enough as it is, to extrapolate them does not
+// pay.
+void StaticsSolver::goOn(const DeadLoads& loads, Backbone& backbone) {
+  constexpr double kOnePass = 1e-4;
+  const History known = accuracy_ < kOnePass && has_columns_ ? History::kColumns : History::kShape;
+  const double steadiness = prepare(chain_, loads, backbone, solutions_ >= 2 ? known : History::kNone);
+  const Vector3 last = base_moment_;
+  base_moment_ += steadiness * (last - moment_before_);
+  moment_before_ = last;
 }
 
 // By the quickest way that works, whichever branch that leads to.
 bool StaticsSolver::findEquilibrium(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
   bool has_inverse = warm_ && has_columns_;
-  if (warm_) prepare(chain_, loads, backbone);
+  if (warm_) goOn(loads, backbone);
   else placeFresh(loads, backbone);
   while (true) {
-    bool converged = quick(loads, has_inverse, backbone, report);
+    bool converged = quick(loads, has_inverse, kMaxSweeps, backbone, report);
     if (!converged) {
       placeFresh(loads, backbone);
       converged = newton(loads, backbone, 30, report);
@@ -247,11 +226,10 @@ class StaticsSolver::Finder : public EquilibriumFinder {
       : solver_(solver), backbone_(backbone), report_(report) {}
 
   std::optional<Equilibrium> settle(const DeadLoads& loads, const Vector3& base_moment) override {
-    solver_.base_moment_ = base_moment;
     prepare(solver_.chain_, loads, backbone_);
     do {
-      solver_.warm_ = false;
-      if (!solver_.newton(loads, backbone_, 12, report_) || !solver_.findTangent(loads, backbone_, report_)) {
+      if (!(settleQuickly(loads, base_moment) || settleByNewton(loads, base_moment)) ||
+          !solver_.findTangent(loads, backbone_, report_)) {
         solver_.forgetGuesses(loads, backbone_);
         return std::nullopt;
       }
@@ -263,6 +241,25 @@ class StaticsSolver::Finder : public EquilibriumFinder {
   bool exhausted() const override { return report_.iterations >= kMaxIterations; }
 
  private:
+  // From the shape and the columns of the loads before.
+  bool settleQuickly(const DeadLoads& loads, const Vector3& base_moment) {
+    constexpr int kFewSweeps = 12;
+    constexpr double kFarFromBuckling = 4.0;  // amplification
+    if (!solver_.nodes_hold_guess_ || !solver_.has_columns_ || solver_.amplification_ > kFarFromBuckling) return false;
+    const Vector3 step = base_moment - solver_.base_moment_;
+    const ChainState chain = stateOf(solver_.chain_, loads, base_moment, backbone_);
+    backbone_.passes->follow_all(chain, {step.x(), step.y(), step.z()});
+    solver_.base_moment_ = base_moment;
+    const int before = report_.iterations;
+    const bool settled = solver_.quick(loads, true, kFewSweeps, backbone_, report_);
+    report_.iterations = before + 1;  // as much work as one converged shot
+    return settled;
+  }
+  bool settleByNewton(const DeadLoads& loads, const Vector3& base_moment) {
+    solver_.base_moment_ = base_moment;
+    solver_.warm_ = false;
+    return solver_.newton(loads, backbone_, 12, report_);
+  }
   bool refine(const DeadLoads& loads) {
     if (!solver_.discretisation_.refine(report_.amplification, backbone_)) return false;
     solver_.forgetGuesses(loads, backbone_);
@@ -278,7 +275,7 @@ class StaticsSolver::Finder : public EquilibriumFinder {
 void StaticsSolver::polish(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
   const Vector3 before = base_moment_;
   StaticsReport finer;
-  if (quick(loads, true, backbone, finer) && findTangent(loads, backbone, finer)) {
+  if (quick(loads, true, kMaxSweeps, backbone, finer) && findTangent(loads, backbone, finer)) {
     report.residual = finer.residual;
     report.iteration = finer.iteration;
   } else {
@@ -315,19 +312,16 @@ bool StaticsSolver::findTangent(const DeadLoads& loads, Backbone& backbone, Stat
   for (int attempt = 0; attempt < 2; ++attempt) {
     ElementColumns tip;
     const double error_goal = std::max(goal / (amplification_ * cancellation), 1e-16);
-    const double column_goal = self_adjoint ? std::sqrt(0.5 * error_goal / amplification_) : error_goal;
-    const double change = tipColumns(chain_, loads, !has_columns_, column_goal, backbone, tip);
+    const double column_goal = self_adjoint ? std::sqrt(2.0 * error_goal / amplification_) : error_goal;
+    const double change = tipColumns(chain_, loads, !has_columns_, column_goal, backbone, tip, self_adjoint);
     has_columns_ = std::isfinite(change);
     if (!has_columns_) return false;
-    const auto p = columnsOf(tip.p), m = columnsOf(tip.m);
-    residual_inverse_ = m.leftCols<3>().inverse();
-    // dm0 = A^-1 (dM - B df), from the residual's columns [A, B].
-    const Matrix3 m0_of_force = -residual_inverse_ * m.rightCols<3>();
-    combine(tip, self_adjoint, m0_of_force, residual_inverse_, tangent_);
+    const auto p = columnsOf(tip.p);
+    backbone.passes->tangent(tip, self_adjoint, residual_inverse_.data(), tangent_.data());
     if (!std::isfinite(tangent_.sum())) return false;
     amplification_ = std::clamp(tangent_.diagonal().tail<3>().cwiseAbs().maxCoeff() / stiffest_, 1.0, kMostAmplification);
     cancellation = std::max(1.0, p.rightCols<3>().norm() / tangent_.topLeftCorner<3, 3>().norm());
-    const double left = (self_adjoint ? 2.0 * change * change * amplification_ : change) * cancellation;
+    const double left = (self_adjoint ? 0.5 * change * change * amplification_ : change) * cancellation;
     report.iteration = shape + left;
     report.truncation = discretisation_.truncation(cancellation, backbone);
     if (left * amplification_ <= goal) break;
@@ -337,39 +331,12 @@ bool StaticsSolver::findTangent(const DeadLoads& loads, Backbone& backbone, Stat
 }
 
 bool StaticsSolver::isStable(const DeadLoads& loads, const Backbone& backbone, const StaticsReport& report) const {
-  // Of a neutral equilibrium rounding, or the error of discretisation, decides what is left of the compliance. So it
-  // must not be larger than that of the softest segment by more than leaves a digit.
-  const double neutral = std::min(1e7, 0.1 / (report.truncation + report.residual + report.iteration));
-  // Of a rod without elongation the compliance is singular, and rounding decides its sign. Beyond buckling the negative
-  // part is as large as the loads are small.
-  constexpr double kRounding = 1e-11;
-  const double translation = tangent_.topLeftCorner<3, 3>().trace();
-  const double rotation = tangent_.bottomRightCorner<3, 3>().trace();
-  if (!(translation > 0.0) || !(rotation < neutral * softness_)) return false;
-  return isPositiveDefinite(tangent_, kRounding * translation, kRounding * rotation) &&
+  return isTipStable(tangent_, softness_, report.truncation + report.residual + report.iteration) &&
          !(mayBuckle(loads, backbone) && hasConjugatePoint(backbone));
 }
 
-// False if the loads are so small that there is one equilibrium only: below 1, this bounds the ratio of load and buckling
-// load of the straight robot from above, by the trace of int |n| int c ds dl (exact for a soft hinge, 0.81 for a uniform
-// column under a tip load). A tip moment alone winds the rod up by half a turn before it has a choice.
 bool StaticsSolver::mayBuckle(const DeadLoads& loads, const Backbone& backbone) const {
-  Vector3 n = loads.baseForce(chain_);
-  double softness = 0.0, load_number = 0.0;  // of all before, rad / (N m)
-  for (const Chain::Part& part : chain_.parts) {
-    if (part.segment >= 0) {
-      const RestState& rest = backbone.rest[part.segment];
-      const double length = rest.stretch * part.length;
-      const double own = rest.c.bending_torsion.diagonal().maxCoeff() * length;
-      load_number += n.norm() * length * (softness + 0.5 * own);
-      softness += own;
-    } else {
-      load_number += n.norm() * part.length * softness;
-    }
-    n -= part.mass * loads.gravity;
-  }
-  load_number += n.norm() * chain_.tip_offset.norm() * softness + angular(loads.tip).norm() * softness / kPi;
-  return !(load_number < 1.0);
+  return !(loadNumber(chain_, loads, backbone) < 1.0);  // NaN, too
 }
 
 StaticsReport StaticsSolver::solve(const DeadLoads& loads, Backbone& backbone) {
@@ -383,7 +350,10 @@ StaticsReport StaticsSolver::solve(const DeadLoads& loads, Backbone& backbone) {
       stiffest_ += rest.c.bending_torsion.diagonal().minCoeff() * length;
     }
   // Other elements hold no guess, but the base moment stays what it was.
-  if (discretisation_.choose(loads, backbone)) has_columns_ = nodes_hold_guess_ = false;
+  if (discretisation_.choose(loads, backbone)) {
+    has_columns_ = nodes_hold_guess_ = false;
+    solutions_ = 0;
+  }
   // Newton's method takes any equilibrium, if it finds one. So where there may be several it is trusted near a stable
   // one only.
   if (warm_ || !mayBuckle(loads, backbone)) {
@@ -397,6 +367,7 @@ StaticsReport StaticsSolver::solve(const DeadLoads& loads, Backbone& backbone) {
     report = second;
   }
   warm_ = report.converged && report.stable;
+  solutions_ = warm_ ? solutions_ + 1 : 0;
   return report;
 }
 

@@ -1,12 +1,11 @@
 #include "live_stiffness/ros/conversions.h"
 
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <live_stiffness/RodLengths.h>
 #include <std_msgs/Float32MultiArray.h>
 #include <std_msgs/Float64MultiArray.h>
 
 #include <cmath>
-
-#include "live_stiffness/checks.h"
 
 namespace live_stiffness {
 namespace {
@@ -35,6 +34,26 @@ std::string pressureFault(double value, const PressureFormat& format) {
   return "";
 }
 
+// Numbers of a stamped message with a `field` for them, or of a bare array.
+template <class Stamped, class Array>
+Reading<Eigen::VectorXd> readArray(const topic_tools::ShapeShifter& message, Array Stamped::*field) {
+  Reading<Eigen::VectorXd> reading;
+  const std::string type = message.getDataType(), own_type = ros::message_traits::DataType<Stamped>::value();
+  if (type == own_type) {
+    const auto typed = message.instantiate<Stamped>();
+    reading.stamp = typed->header.stamp;
+    reading.value = toVectorXd((*typed).*field);
+  } else if (type == "std_msgs/Float64MultiArray") {
+    reading.value = toVectorXd(message.instantiate<std_msgs::Float64MultiArray>()->data);
+  } else if (type == "std_msgs/Float32MultiArray") {
+    reading.value = toVectorXd(message.instantiate<std_msgs::Float32MultiArray>()->data);
+  } else {
+    reading.fault = "message type " + type + ": must be " + own_type +
+                    ", std_msgs/Float64MultiArray or std_msgs/Float32MultiArray";
+  }
+  return reading;
+}
+
 Reading<TrackedPose> checkedPose(const ros::Time& stamp, const std::string& frame, const geometry_msgs::Point& p,
                                  const geometry_msgs::Quaternion& q, double position_unit) {
   const Vector3 position(p.x, p.y, p.z);
@@ -42,8 +61,8 @@ Reading<TrackedPose> checkedPose(const ros::Time& stamp, const std::string& fram
   if (!position.allFinite() || !rotation.coeffs().allFinite())
     return faulty<TrackedPose>("pose is not finite: the tracker does not see its sensor");
   if (position_unit * position.norm() > kFarthest)
-    return faulty<TrackedPose>("position is " + numberText(position_unit * position.norm()) + " m away: must be within " +
-                               numberText(kFarthest) + " m");
+    return faulty<TrackedPose>("position is " + numberText(position_unit * position.norm()) +
+                               " m away: must be within " + numberText(kFarthest) + " m");
   const double norm = rotation.norm();
   if (norm < 1e-6) return faulty<TrackedPose>("quaternion is zero: the tracker does not see its sensor");
   if (std::abs(norm - 1.0) > 0.05)
@@ -63,10 +82,26 @@ Message toXyz(const Vector3& v) {
   return message;
 }
 
-template <class Matrix, class Array>
-void copyRowByRow(const Matrix& matrix, Array& array) {
-  for (int i = 0; i < 6; ++i)
-    for (int j = 0; j < 6; ++j) array[6 * i + j] = matrix(i, j);
+// What the estimates of both kinds of robots share.
+template <class Estimate, class Message>
+void fillEstimate(const Estimate& estimate, const Ellipsoid& translation, const ros::Time& stamp,
+                  const std::string& frame, Message& message) {
+  message.header.stamp = stamp;
+  message.header.frame_id = frame;
+  copyRowByRow(estimate.solution.compliance, message.compliance);
+  copyRowByRow(estimate.solution.material_compliance, message.material_compliance);
+  copyRowByRow(estimate.stiffness, message.stiffness);
+  for (int k = 0; k < 3; ++k) message.compliance_eigenvalues[k] = translation.half_axes[k];
+  message.iterations = estimate.solution.iterations;
+  message.solve_time = estimate.solve_time;
+  message.numerical_error = estimate.solution.numerical_error;
+}
+
+geometry_msgs::Wrench toWrench(const Wrench& wrench) {
+  geometry_msgs::Wrench message;
+  message.force = toVector(linear(wrench));
+  message.torque = toVector(angular(wrench));
+  return message;
 }
 
 }  // namespace
@@ -81,25 +116,22 @@ double pascalsPerUnit(const std::string& unit) {
 }
 
 Reading<Pressures> readPressures(const topic_tools::ShapeShifter& message, const PressureFormat& format) {
-  Reading<Pressures> reading;
-  const std::string type = message.getDataType();
-  if (type == "live_stiffness/ChamberPressures") {
-    const auto typed = message.instantiate<ChamberPressures>();
-    reading.stamp = typed->header.stamp;
-    reading.value = toVectorXd(typed->pressure);
-  } else if (type == "std_msgs/Float64MultiArray") {
-    reading.value = toVectorXd(message.instantiate<std_msgs::Float64MultiArray>()->data);
-  } else if (type == "std_msgs/Float32MultiArray") {
-    reading.value = toVectorXd(message.instantiate<std_msgs::Float32MultiArray>()->data);
-  } else {
-    return faulty<Pressures>("message type " + type + ": must be live_stiffness/ChamberPressures, "
-                             "std_msgs/Float64MultiArray or std_msgs/Float32MultiArray");
-  }
+  Reading<Pressures> reading = readArray(message, &ChamberPressures::pressure);
   for (int k = 0; k < reading.value.size() && reading.ok(); ++k) {
     const std::string fault = pressureFault(reading.value[k], format);
     if (!fault.empty()) reading.fault = "pressure of channel " + std::to_string(k + 1) + " " + fault;
     reading.value[k] = format.gauge(reading.value[k]);
   }
+  return reading;
+}
+
+Reading<Eigen::VectorXd> readRodLengths(const topic_tools::ShapeShifter& message, double unit) {
+  Reading<Eigen::VectorXd> reading = readArray(message, &RodLengths::length);
+  for (int i = 0; i < reading.value.size() && reading.ok(); ++i)
+    if (!std::isfinite(reading.value[i]))
+      reading.fault =
+          "length of rod " + std::to_string(i + 1) + " is " + numberText(reading.value[i]) + ": must be finite";
+  reading.value *= unit;
   return reading;
 }
 
@@ -139,13 +171,40 @@ Reading<TrackedPose> readPose(const geometry_msgs::TransformStamped& message, do
                      position_unit);
 }
 
-Reading<Wrench> readWrench(const geometry_msgs::WrenchStamped& message) {
+Reading<Pose> readPose(const geometry_msgs::Pose& message) {
+  const Reading<TrackedPose> checked = checkedPose(ros::Time(), "", message.position, message.orientation, 1.0);
+  if (!checked.ok()) return faulty<Pose>("pose must be finite, with a quaternion of length 1");
+  return {checked.stamp, checked.value.pose, ""};
+}
+
+Reading<Matrix3> readAxes(const std::string& frame, const FrameNames& frames, const Pose* X_BT) {
+  const std::string name = withoutSlash(frame);
+  if (name.empty() || name == frames.base) return {ros::Time(), Matrix3::Identity(), ""};
+  if (name != frames.body)
+    return faulty<Matrix3>("unknown frame " + name + ": must be " + frames.base +
+                           (frames.body.empty() ? "" : " or " + frames.body));
+  if (X_BT == nullptr) return faulty<Matrix3>("the axes of " + name + " are not known before the first estimate");
+  return {ros::Time(), X_BT->R, ""};
+}
+
+Reading<Wrench> readWrench(const geometry_msgs::WrenchStamped& message, const FrameNames& frames, const Pose* X_BT) {
   Reading<Wrench> reading;
   reading.stamp = message.header.stamp;
   const geometry_msgs::Vector3 &f = message.wrench.force, &m = message.wrench.torque;
   reading.value << f.x, f.y, f.z, m.x, m.y, m.z;
-  if (!reading.value.allFinite()) reading.fault = "wrench is not finite";
+  if (!reading.value.allFinite()) return faulty<Wrench>("wrench is not finite: six finite numbers, N and N m");
+  const Reading<Matrix3> axes = readAxes(message.header.frame_id, frames, X_BT);
+  reading.fault = axes.fault;
+  if (axes.ok()) reading.value = wrenchAdjoint({axes.value, Vector3::Zero()}) * reading.value;
   return reading;
+}
+
+Reading<Vector3> readVector(const geometry_msgs::Vector3& message, const std::string& name) {
+  const Vector3 value(message.x, message.y, message.z);
+  if (!value.allFinite())
+    return faulty<Vector3>(name + " = [" + numberText(value.x()) + ", " + numberText(value.y()) + ", " +
+                           numberText(value.z()) + "]: must be three finite numbers");
+  return {ros::Time(), value, ""};
 }
 
 std::string withoutSlash(const std::string& frame) {
@@ -204,27 +263,48 @@ geometry_msgs::WrenchStamped toWrenchStamped(const Wrench& wrench, const ros::Ti
   geometry_msgs::WrenchStamped message;
   message.header.stamp = stamp;
   message.header.frame_id = frame;
-  message.wrench.force = toVector(linear(wrench));
-  message.wrench.torque = toVector(angular(wrench));
+  message.wrench = toWrench(wrench);
   return message;
 }
 
 StiffnessEstimate toEstimate(const Estimate& estimate, const ros::Time& stamp, const std::string& frame) {
   StiffnessEstimate message;
-  message.header.stamp = stamp;
-  message.header.frame_id = frame;
+  fillEstimate(estimate, estimate.tip_ellipsoid, stamp, frame, message);
   message.tip_pose = toPose(estimate.solution.X_BT);
-  copyRowByRow(estimate.solution.compliance, message.compliance);
-  copyRowByRow(estimate.solution.material_compliance, message.material_compliance);
-  copyRowByRow(estimate.stiffness, message.stiffness);
-  for (int k = 0; k < 3; ++k) message.compliance_eigenvalues[k] = estimate.tip_ellipsoid.half_axes[k];
   message.pressure.assign(estimate.pressures.data(), estimate.pressures.data() + estimate.pressures.size());
-  message.tip_wrench.force = toVector(linear(estimate.tip_wrench));
-  message.tip_wrench.torque = toVector(angular(estimate.tip_wrench));
+  message.tip_wrench = toWrench(estimate.tip_wrench);
   message.stretch = estimate.stretch;
-  message.iterations = estimate.solution.iterations;
-  message.solve_time = estimate.solve_time;
-  message.numerical_error = estimate.solution.numerical_error;
+  return message;
+}
+
+PlatformEstimate toEstimate(const ParallelEstimate& estimate, const ros::Time& stamp, const std::string& frame) {
+  PlatformEstimate message;
+  fillEstimate(estimate, estimate.ellipsoids.translation, stamp, frame, message);
+  message.platform_pose = toPose(estimate.solution.X_BP);
+  message.length = estimate.lengths;
+  message.wrench = toWrench(estimate.wrench);
+  return message;
+}
+
+void fillDeflection(const DeflectionCheck& check, PredictDeflection::Response& response) {
+  response.predicted = check.undeflected_ok;
+  if (!check.undeflected_ok) return;
+  response.undeflected = toPose(check.undeflected);
+  response.deflection = toTwist(check.predicted.twist);
+  response.linear = toPose(check.predicted.linear);
+  response.exponential = toPose(check.predicted.exponential);
+  if (!check.status.ok()) return;
+  response.exact = toPose(check.exact);
+  response.linear_position_error = check.linear_error.position;
+  response.linear_rotation_error = check.linear_error.rotation;
+  response.exponential_position_error = check.exponential_error.position;
+  response.exponential_rotation_error = check.exponential_error.rotation;
+}
+
+geometry_msgs::Twist toTwist(const Twist& twist) {
+  geometry_msgs::Twist message;
+  message.linear = toVector(linear(twist));
+  message.angular = toVector(angular(twist));
   return message;
 }
 

@@ -7,8 +7,8 @@
 namespace live_stiffness {
 namespace {
 
-// True, and the clock restarted, if `last` is at least `seconds` ago. Not ROS_ERROR_THROTTLE and its kin: they share one
-// clock between all inputs, and stop when simulated time does.
+// True, and the clock restarted, if `last` is at least `seconds` ago. Not ROS_ERROR_THROTTLE and its kin: they share
+// one clock between all inputs, and stop when simulated time does.
 bool isDue(ros::WallTime& last, double seconds) {
   const ros::WallTime now = ros::WallTime::now();
   if (now - last < ros::WallDuration(seconds)) return false;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "live_stiffness/analysis/eigenscrews.h"
 #include "live_stiffness/ros/conversions.h"
 
 namespace live_stiffness {
@@ -12,118 +13,57 @@ namespace {
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
-constexpr double kLargestDrawn = 1.0;    // m; a nearly unstable robot has an ellipsoid without bounds
-constexpr double kSmallestDrawn = 1e-4;  // m; rviz refuses a scale of zero
-
-std_msgs::ColorRGBA color(double r, double g, double b, double a) {
-  std_msgs::ColorRGBA color;
-  color.r = r;
-  color.g = g;
-  color.b = b;
-  color.a = a;
-  return color;
-}
-
-// Blue (0) over white to red (1).
-std_msgs::ColorRGBA blueToRed(double fraction, bool stale) {
-  if (stale) return color(0.6, 0.6, 0.6, 1.0);
-  const double x = std::clamp(fraction, 0.0, 1.0);
-  return x < 0.5 ? color(0.2 + 1.4 * x, 0.4 + x, 0.9, 1.0) : color(0.9, 0.9 - 1.4 * (x - 0.5), 0.9 - 1.4 * (x - 0.5), 1.0);
-}
-
-Marker newMarker(const MarkerStyle& style, const ros::Time& stamp, const std::string& name, int id, int type) {
-  Marker marker;
-  marker.header.frame_id = style.frame;
-  marker.header.stamp = stamp;
-  marker.ns = name;
-  marker.id = id;
-  marker.type = type;
-  marker.action = Marker::ADD;
-  marker.pose.orientation.w = 1.0;
-  marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
-  marker.color = color(1.0, 1.0, 1.0, 1.0);
-  return marker;
-}
-
 double largestCompliance(const Station& station) {
   return ellipsoidOf(station.compliance.topLeftCorner<3, 3>()).half_axes.z();
 }
 
 Marker tube(const std::vector<Station>& samples, bool stale, const MarkerStyle& style, const ros::Time& stamp) {
-  constexpr int kSides = 12;
-  Marker marker = newMarker(style, stamp, "backbone", 0, Marker::TRIANGLE_LIST);
+  std::vector<Pose> sections;
   std::vector<double> compliance;
-  for (const Station& sample : samples) compliance.push_back(largestCompliance(sample));
-  const double largest = std::max(1e-12, *std::max_element(compliance.begin(), compliance.end()));
-  const auto rim = [&](size_t i, int side) {
-    const double angle = 2.0 * kPi * side / kSides;
-    return toPoint(samples[i].X_BS *
-                   Vector3(style.tube_radius * std::cos(angle), style.tube_radius * std::sin(angle), 0.0));
-  };
-  const auto corner = [&](size_t i, int side) {
-    marker.points.push_back(rim(i, side));
-    // The root spreads the colours: compliance grows with about the cube of the arc length.
-    marker.colors.push_back(blueToRed(std::cbrt(compliance[i] / largest), stale));
-  };
-  for (size_t i = 0; i + 1 < samples.size(); ++i) {
-    for (int side = 0; side < kSides; ++side) {
-      corner(i, side);
-      corner(i, side + 1);
-      corner(i + 1, side);
-      corner(i + 1, side);
-      corner(i, side + 1);
-      corner(i + 1, side + 1);
-    }
+  for (const Station& sample : samples) {
+    sections.push_back(sample.X_BS);
+    compliance.push_back(largestCompliance(sample));
   }
+  const double largest = std::max(1e-12, *std::max_element(compliance.begin(), compliance.end()));
+  std::vector<std_msgs::ColorRGBA> colors;
+  // The root spreads the colours: compliance grows with about the cube of the arc length.
+  for (double value : compliance) colors.push_back(blueToRed(std::cbrt(value / largest), stale));
+  Marker marker = newMarker(style.frame, stamp, "backbone", 0, Marker::TRIANGLE_LIST);
+  setTube(marker, sections, style.tube_radius, colors);
   return marker;
 }
 
-void setEllipsoid(Marker& marker, const Ellipsoid& ellipsoid, const Vector3& centre, double scale) {
-  marker.pose = toPose({ellipsoid.directions, centre});
-  const auto diameter = [&](int k) {  // SPHERE's scale is the full axis
-    return std::clamp(2.0 * scale * std::abs(ellipsoid.half_axes[k]), kSmallestDrawn, kLargestDrawn);
-  };
-  marker.scale.x = diameter(0);
-  marker.scale.y = diameter(1);
-  marker.scale.z = diameter(2);
-}
-
-Marker ball(const MarkerStyle& style, const ros::Time& stamp, int id, const Vector3& centre,
-            const std_msgs::ColorRGBA& shade) {
-  Marker marker = newMarker(style, stamp, "tip", id, Marker::SPHERE);
-  marker.pose.position = toPoint(centre);
-  marker.scale.x = marker.scale.y = marker.scale.z = 0.004;
-  marker.color = shade;
-  return marker;
+// Of the segments in turn: blue, green, violet, yellow, and again.
+std_msgs::ColorRGBA segmentColor(size_t segment, bool stale) {
+  if (stale) return color(0.6, 0.6, 0.6, 0.35);
+  const std_msgs::ColorRGBA palette[] = {color(0.35, 0.65, 1.0, 0.6), color(0.4, 0.85, 0.4, 0.6),
+                                         color(0.75, 0.5, 1.0, 0.6), color(0.95, 0.9, 0.35, 0.6)};
+  return palette[segment % 4];
 }
 
 void addTips(const Vector3& predicted, const std::optional<Pose>& measured, const MarkerStyle& style,
              const ros::Time& stamp, MarkerArray& markers) {
-  markers.markers.push_back(ball(style, stamp, 0, predicted, color(0.1, 0.8, 0.2, 1.0)));
-  Marker seen = ball(style, stamp, 1, predicted, color(0.95, 0.1, 0.1, 1.0));
-  Marker line = newMarker(style, stamp, "tip", 2, Marker::LINE_LIST);
+  constexpr double kDiameter = 0.004;  // m
+  Marker tip = newMarker(style.frame, stamp, "tip", 0, Marker::SPHERE);
+  setBall(tip, predicted, kDiameter, color(0.1, 0.8, 0.2, 1.0));
+  Marker seen = newMarker(style.frame, stamp, "tip", 1, Marker::SPHERE);
+  setBall(seen, measured ? measured->p : predicted, kDiameter, color(0.95, 0.1, 0.1, 1.0));
+  Marker line = newMarker(style.frame, stamp, "tip", 2, Marker::LINE_LIST);
   line.scale.x = 0.001;
   line.color = color(0.95, 0.1, 0.1, 1.0);
-  if (measured) {
-    seen.pose.position = toPoint(measured->p);
-    line.points = {toPoint(predicted), toPoint(measured->p)};
-  } else {
-    seen.action = line.action = Marker::DELETE;
-  }
-  markers.markers.push_back(seen);
-  markers.markers.push_back(line);
+  if (measured) line.points = {toPoint(predicted), toPoint(measured->p)};
+  else seen.action = line.action = Marker::DELETE;
+  markers.markers.insert(markers.markers.end(), {tip, seen, line});
 }
 
 Marker eigenvalueText(const Estimate& estimate, bool stale, const MarkerStyle& style, const ros::Time& stamp) {
-  Marker marker = newMarker(style, stamp, "text", 0, Marker::TEXT_VIEW_FACING);
-  marker.pose.position = toPoint(estimate.solution.X_BT.p + Vector3(0.0, 0.0, 0.022));
-  marker.scale.z = 0.005;
   char text[160];
   const Vector3 cm_per_n = 100.0 * estimate.tip_ellipsoid.half_axes;
   std::snprintf(text, sizeof text, "%.3g / %.3g / %.3g cm/N%s", cm_per_n[0], cm_per_n[1], cm_per_n[2],
                 stale ? " STALE" : "");
-  marker.text = text;
-  marker.color = stale ? color(1.0, 0.3, 0.2, 1.0) : color(1.0, 1.0, 1.0, 1.0);
+  Marker marker = newMarker(style.frame, stamp, "text", 0, Marker::TEXT_VIEW_FACING);
+  setText(marker, estimate.solution.X_BT.p + Vector3(0.0, 0.0, 0.022), 0.005, text);
+  if (stale) marker.color = color(1.0, 0.3, 0.2, 1.0);
   return marker;
 }
 
@@ -134,19 +74,82 @@ MarkerArray makeMarkers(const Estimate& estimate, const std::vector<Station>& sa
                         const ros::Time& stamp) {
   MarkerArray markers;
   markers.markers.push_back(tube(samples, stale, style, stamp));
+  const size_t per_segment = estimate.stations.size() / std::max<size_t>(1, estimate.stretch.size());
   for (size_t i = 0; i < estimate.stations.size(); ++i) {
-    Marker marker = newMarker(style, stamp, "ellipsoids", static_cast<int>(i), Marker::SPHERE);
+    Marker marker = newMarker(style.frame, stamp, "ellipsoids", static_cast<int>(i), Marker::SPHERE);
     const Station& station = estimate.stations[i];
     setEllipsoid(marker, ellipsoidOf(station.compliance.topLeftCorner<3, 3>()), station.X_BS.p, style.ellipsoid_scale);
-    marker.color = stale ? color(0.6, 0.6, 0.6, 0.35) : color(0.35, 0.65, 1.0, 0.6);
+    marker.color = segmentColor(i / per_segment, stale);
     markers.markers.push_back(marker);
   }
-  Marker tip = newMarker(style, stamp, "tip_ellipsoid", 0, Marker::SPHERE);
+  Marker tip = newMarker(style.frame, stamp, "tip_ellipsoid", 0, Marker::SPHERE);
   setEllipsoid(tip, estimate.tip_ellipsoid, estimate.solution.X_BT.p, style.ellipsoid_scale);
   tip.color = stale ? color(0.5, 0.5, 0.5, 0.5) : color(1.0, 0.6, 0.15, 0.75);
   markers.markers.push_back(tip);
   addTips(estimate.solution.X_BT.p, measured_tip, style, stamp, markers);
   markers.markers.push_back(eigenvalueText(estimate, stale, style, stamp));
+  return markers;
+}
+
+MarkerArray makeEigenscrewMarkers(const Estimate& estimate, bool stale, double length, const MarkerStyle& style,
+                                  const ros::Time& stamp) {
+  const EigenscrewDecomposition decomposition = eigenscrewsOfStiffness(estimate.stiffness);
+  MarkerArray markers;
+  for (int i = 0; i < 6; ++i) {
+    const Eigenscrew& screw = decomposition.screws[i];
+    const bool is_positive = screw.eigenvalue > 0.0;
+    const Vector3 middle = estimate.solution.X_BT.p + screw.point, half = 0.5 * length * screw.direction;
+    Marker line = newMarker(style.frame, stamp, "eigenscrews", i, Marker::LINE_LIST);
+    line.scale.x = 0.0007;
+    line.color = is_positive ? color(1.0, 0.35, 0.3, 1.0) : color(0.4, 0.6, 1.0, 1.0);
+    line.points = {toPoint(middle - half), toPoint(middle + half)};
+    char text[80];
+    std::snprintf(text, sizeof text, "%+.3g N, %+.3g mm/rad", screw.eigenvalue, 1e3 * screw.pitch);
+    Marker label = newMarker(style.frame, stamp, "eigenscrews", 6 + i, Marker::TEXT_VIEW_FACING);
+    // Positive and negative screws often share a line: their labels stand at its two ends.
+    setText(label, middle + (is_positive ? 1.05 : -1.05) * half, 0.003, text);
+    label.color = line.color;
+    markers.markers.insert(markers.markers.end(), {line, label});
+  }
+  if (stale || !decomposition.definite) deleteAll(markers);
+  return markers;
+}
+
+MarkerArray makeGhostMarkers(const Ghost* ghost, double force_n_per_m, const MarkerStyle& style,
+                             const ros::Time& stamp) {
+  constexpr double kLongest = 0.2, kShortest = 1e-4;  // arrow, m
+  MarkerArray markers;
+  const auto add = [&](const std::string& name, int id, int type) -> Marker& {
+    markers.markers.push_back(newMarker(style.frame, stamp, name, id, type));
+    return markers.markers.back();
+  };
+  markers.markers.reserve(4);
+  Marker &tube = add("ghost", 0, Marker::TRIANGLE_LIST), &tip = add("ghost", 1, Marker::SPHERE),
+         &arrow = add("ghost_force", 0, Marker::ARROW), &text = add("ghost_text", 0, Marker::TEXT_VIEW_FACING);
+  if (ghost == nullptr) {
+    deleteAll(markers);
+    return markers;
+  }
+  setText(text, ghost->text_place, 0.0035, ghost->text);
+  if (ghost->shape.empty()) {
+    tube.action = tip.action = arrow.action = Marker::DELETE;
+    text.color = color(1.0, 0.5, 0.3, 1.0);
+    return markers;
+  }
+  const std_msgs::ColorRGBA shade = color(0.85, 0.9, 1.0, 0.45);
+  setTube(tube, ghost->shape, style.tube_radius, {shade});
+  setBall(tip, ghost->X_BT.p, 0.004, shade);
+  const double length = ghost->force.norm() / force_n_per_m;
+  if (length < kShortest) {
+    arrow.action = Marker::DELETE;
+    return markers;
+  }
+  const Vector3 along = std::min(1.0, kLongest / length) / force_n_per_m * ghost->force;
+  arrow.points = {toPoint(ghost->X_BT.p), toPoint(ghost->X_BT.p + along)};
+  arrow.scale.x = 0.0012;  // shaft
+  arrow.scale.y = 0.003;   // head
+  arrow.scale.z = 0.005;
+  arrow.color = color(1.0, 0.9, 0.2, 1.0);
   return markers;
 }
 

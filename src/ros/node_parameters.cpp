@@ -50,15 +50,18 @@ void readTracker(ParameterReader& read, NodeParameters& parameters) {
 }
 
 void readDisplay(ParameterReader& read, NodeParameters& parameters, FaultList& faults) {
-  parameters.base_frame = withoutSlash(read.text("base_frame", "base"));
-  parameters.tip_frame = withoutSlash(read.text("tip_frame", "tip"));
-  if (parameters.base_frame.empty() || parameters.tip_frame.empty() || parameters.base_frame == parameters.tip_frame)
-    faults.add("~base_frame = " + parameters.base_frame + ", ~tip_frame = " + parameters.tip_frame +
-               ": must be two different names");
+  readFrames(read, "tip_frame", "tip", parameters.frames, faults);
   parameters.estimator.fractions =
       read.numbers("ellipsoid_fractions", parameters.estimator.fractions, {0.0, 1.0});
   parameters.ellipsoid_scale = read.number("ellipsoid_scale_m_per_m_n", parameters.ellipsoid_scale, Range::positive());
   parameters.marker_rate = read.number("marker_rate_hz", parameters.marker_rate, {0.1, 100.0});
+  parameters.show_eigenscrews = read.boolean("show_eigenscrews", parameters.show_eigenscrews);
+  parameters.eigenscrew_length =
+      read.number("eigenscrew_length_m", parameters.eigenscrew_length, Range::positive());
+  TipHandleOptions& handle = parameters.tip_handle;
+  handle.enabled = read.boolean("tip_handle", handle.enabled);
+  handle.force_per_m = read.number("tip_handle_force_n_per_m", handle.force_per_m, Range::positive());
+  handle.moment_per_rad = read.number("tip_handle_moment_n_m_per_rad", handle.moment_per_rad, Range::positive());
 }
 
 void readScene(ParameterReader& read, NodeParameters& parameters, FaultList& faults) {

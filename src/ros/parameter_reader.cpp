@@ -116,4 +116,12 @@ std::vector<std::string> ParameterReader::unknown() const {
   return unknown;
 }
 
+void readFrames(ParameterReader& read, const std::string& body_key, const std::string& body_default, FrameNames& frames,
+                FaultList& faults) {
+  frames = {withoutSlash(read.text("base_frame", "base")), withoutSlash(read.text(body_key, body_default))};
+  if (frames.base.empty() || frames.body.empty() || frames.base == frames.body)
+    faults.add("~base_frame = " + frames.base + ", ~" + body_key + " = " + frames.body +
+               ": must be two different names");
+}
+
 }  // namespace live_stiffness

@@ -1,9 +1,10 @@
 #include "live_stiffness/ros/stiffness_node.h"
 
+#include "live_stiffness/ros/solver_report.h"
+
 namespace live_stiffness {
 namespace {
 
-using diagnostic_msgs::DiagnosticStatus;
 using diagnostic_updater::DiagnosticStatusWrapper;
 
 constexpr int kBackboneSamples = 20;  // per segment
@@ -15,27 +16,35 @@ StiffnessNode::StiffnessNode(const ros::NodeHandle& node, const ros::NodeHandle&
       private_node_(private_node),
       parameters_(loadNodeParameters(private_node)),
       estimator_(parameters_.scene, parameters_.model, parameters_.estimator),
+      pose_output_(private_node, "tip_pose", parameters_.frames),
       diagnostics_(node, private_node),
-      wrench_watch_("tip_wrench"),
+      wrench_input_(
+          node, "tip_wrench", parameters_.frames, parameters_.tip_wrench_timeout,
+          [this] { return estimator_.estimate() ? &estimator_.estimate()->solution.X_BT : nullptr; },
+          [this](const Wrench& wrench) { react(estimator_.setTipWrench(wrench)); }),
       pressure_input_(
-          node, parameters_, [this](const Pressures& pressures, const ros::Time& stamp) { onPressures(pressures, stamp); },
-          [this](const std::string& fault) { onPressureFault(fault); }),
-      tracker_input_(node, parameters_, [this](const Pose& X_BT, const ros::Time& stamp) { onMeasuredTip(X_BT, stamp); }) {
-  marker_style_.frame = parameters_.base_frame;
+          node, parameters_,
+          [this](const Pressures& pressures, const ros::Time& stamp) { onPressures(pressures, stamp); },
+          [this](const std::string& fault) { input_fault_ = fault; }),
+      tracker_input_(node, parameters_,
+                     [this](const Pose& X_BT, const ros::Time& stamp) { onMeasuredTip(X_BT, stamp); }),
+      services_(private_node, estimator_.model(), parameters_.frames, [this] { return newest(); }) {
+  marker_style_.frame = parameters_.frames.base;
   marker_style_.ellipsoid_scale = parameters_.ellipsoid_scale;
   estimate_publisher_ = private_node_.advertise<StiffnessEstimate>("estimate", 10);
-  tip_pose_publisher_ = private_node_.advertise<geometry_msgs::PoseStamped>("tip_pose", 10);
   error_publisher_ = private_node_.advertise<TrackingError>("tracking_error", 10);
   wrench_publisher_ = private_node_.advertise<geometry_msgs::WrenchStamped>("tip_wrench_estimate", 10);
   backbone_publisher_ = private_node_.advertise<nav_msgs::Path>("backbone", 1);
   marker_publisher_ = private_node_.advertise<visualization_msgs::MarkerArray>("markers", 1);
   static_tf_broadcaster_.sendTransform(
-      toTransform(parameters_.registration.X_AB, ros::Time::now(), parameters_.tracker_frame, parameters_.base_frame));
+      toTransform(parameters_.registration.X_AB, ros::Time::now(), parameters_.tracker_frame, parameters_.frames.base));
   diagnostics_.setHardwareID("live_stiffness");
   diagnostics_.add("Pressures", &pressure_input_, &PressureInput::diagnose);
   diagnostics_.add("Tracker", this, &StiffnessNode::diagnoseTracker);
   diagnostics_.add("Solver", this, &StiffnessNode::diagnoseSolver);
-  wrench_subscriber_ = node_.subscribe("tip_wrench", 10, &StiffnessNode::onTipWrench, this);
+  if (parameters_.tip_handle.enabled)
+    tip_handle_ = std::make_unique<TipHandle>(private_node_, estimator_.model(), marker_style_, parameters_.tip_handle,
+                                              marker_publisher_, [this] { return newest(); });
   timers_ = {node_.createTimer(ros::Duration(1.0 / parameters_.heartbeat), &StiffnessNode::onHeartbeat, this),
              node_.createTimer(ros::Duration(1.0 / parameters_.marker_rate), &StiffnessNode::onMarkers, this)};
   diagnostics_timer_ = node_.createWallTimer(ros::WallDuration(0.2),
@@ -47,14 +56,12 @@ StiffnessNode::StiffnessNode(const ros::NodeHandle& node, const ros::NodeHandle&
 
 void StiffnessNode::onPressures(const Pressures& pressures, const ros::Time& stamp) {
   pressure_stamp_ = stamp;
+  input_fault_.clear();
   react(estimator_.setPressures(pressures));
 }
 
-void StiffnessNode::onPressureFault(const std::string& fault) { newest_fault_ = fault; }
-
 void StiffnessNode::react(StiffnessEstimator::Outcome outcome) {
-  newest_fault_ = estimator_.statusText();
-  if (!newest_fault_.empty()) pressure_input_.reject(newest_fault_);
+  if (!estimator_.status().ok()) pressure_input_.reject(estimator_.statusText());
   else if (outcome == StiffnessEstimator::Outcome::kSolved) estimate_stamp_ = pressure_stamp_;
   if (outcome != StiffnessEstimator::Outcome::kUnchanged) publishEstimate();
 }
@@ -63,55 +70,19 @@ void StiffnessNode::react(StiffnessEstimator::Outcome outcome) {
 void StiffnessNode::publishEstimate() {
   if (estimator_.estimate() == nullptr) return;
   const Estimate& estimate = *estimator_.estimate();
-  StiffnessEstimate message = toEstimate(estimate, estimate_stamp_, parameters_.base_frame);
-  message.status = static_cast<uint8_t>(estimator_.status().code);
-  message.stale = isStale();
-  message.message = newest_fault_;
-  if (message.status == StiffnessEstimate::OK && !newest_fault_.empty())
-    message.status = StiffnessEstimate::INVALID_INPUT;  // the message could not even be read
-  if (message.stale && message.message.empty())
-    message.message = "no pressures for more than " + numberText(parameters_.pressure_timeout) + " s";
+  StiffnessEstimate message = toEstimate(estimate, estimate_stamp_, parameters_.frames.base);
+  setStanding(estimator_.status().code, newestFault(), pressure_input_.isStale(), parameters_.pressure_timeout,
+              "pressures", message);
   estimate_publisher_.publish(message);
-  if (message.stale) return;
-  tip_pose_publisher_.publish(toPoseStamped(estimate.solution.X_BT, estimate_stamp_, parameters_.base_frame));
-  if (estimate_stamp_ == tf_stamp_) return;
-  tf_stamp_ = estimate_stamp_;
-  tf_broadcaster_.sendTransform(
-      toTransform(estimate.solution.X_BT, estimate_stamp_, parameters_.base_frame, parameters_.tip_frame));
+  if (!message.stale) pose_output_.publish(estimate.solution.X_BT, estimate_stamp_);
 }
 
 void StiffnessNode::onHeartbeat(const ros::TimerEvent&) {
   pressure_input_.tend();
   tracker_input_.tend();
-  expireTipWrench();
+  wrench_input_.tend();
   if (isStale()) publishEstimate();
   else react(estimator_.solve());
-}
-
-void StiffnessNode::onTipWrench(const geometry_msgs::WrenchStamped::ConstPtr& message) {
-  const Reading<Wrench> reading = readWrench(*message);
-  if (!reading.ok()) return wrench_watch_.reject(reading.fault);
-  const std::string frame = withoutSlash(message->header.frame_id);
-  Wrench tip_wrench = reading.value;
-  if (frame == parameters_.tip_frame) {
-    if (estimator_.estimate() == nullptr) return;  // the tip's axes are not known yet
-    const Matrix3& R_BT = estimator_.estimate()->solution.X_BT.R;
-    linear(tip_wrench) = R_BT * linear(reading.value);
-    angular(tip_wrench) = R_BT * angular(reading.value);
-  } else if (frame != parameters_.base_frame && !frame.empty()) {
-    return wrench_watch_.reject("unknown frame " + frame + ": must be " + parameters_.base_frame + " or " +
-                                parameters_.tip_frame);
-  }
-  wrench_watch_.accept(ros::Time::now());
-  react(estimator_.setTipWrench(tip_wrench));
-}
-
-void StiffnessNode::expireTipWrench() {
-  if (parameters_.tip_wrench_timeout <= 0.0 || !wrench_watch_.everAccepted()) return;
-  if (wrench_watch_.age(ros::Time::now()) <= parameters_.tip_wrench_timeout) return;
-  ROS_WARN("tip_wrench: nothing for %g s, now taken as zero", parameters_.tip_wrench_timeout);
-  wrench_watch_.restart();
-  react(estimator_.setTipWrench(Wrench::Zero()));
 }
 
 void StiffnessNode::onMeasuredTip(const Pose& measured_X_BT, const ros::Time& stamp) {
@@ -120,10 +91,10 @@ void StiffnessNode::onMeasuredTip(const Pose& measured_X_BT, const ros::Time& st
   const Twist residual = residualTwist(measured_X_BT, estimate.solution.X_BT);
   tracking_error_ = linear(residual).norm();
   error_publisher_.publish(
-      toTrackingError(measured_X_BT, estimate.solution.X_BT, residual, stamp, parameters_.base_frame));
+      toTrackingError(measured_X_BT, estimate.solution.X_BT, residual, stamp, parameters_.frames.base));
   Wrench tip_wrench = estimate.tip_wrench;  // the residual is what the known wrench does not explain
   linear(tip_wrench) += estimateTipForce(estimate.solution.compliance, residual).force;
-  if (tip_wrench.allFinite()) wrench_publisher_.publish(toWrenchStamped(tip_wrench, stamp, parameters_.base_frame));
+  if (tip_wrench.allFinite()) wrench_publisher_.publish(toWrenchStamped(tip_wrench, stamp, parameters_.frames.base));
 }
 
 void StiffnessNode::onMarkers(const ros::TimerEvent&) {
@@ -132,9 +103,16 @@ void StiffnessNode::onMarkers(const ros::TimerEvent&) {
   std::vector<Station> samples = estimator_.sampleBackbone(kBackboneSamples);
   if (samples.empty()) samples = estimate.stations;  // the newest solve failed: its shape is not to be shown
   if (samples.empty()) return;
-  marker_publisher_.publish(
-      makeMarkers(estimate, samples, tracker_input_.freshTip(), isStale(), marker_style_, estimate_stamp_));
-  backbone_publisher_.publish(toPath(samples, estimate.solution.X_BT, estimate_stamp_, parameters_.base_frame));
+  visualization_msgs::MarkerArray markers =
+      makeMarkers(estimate, samples, tracker_input_.freshTip(), isStale(), marker_style_, estimate_stamp_);
+  if (parameters_.show_eigenscrews) {
+    const visualization_msgs::MarkerArray screws = makeEigenscrewMarkers(
+        estimate, isStale(), parameters_.eigenscrew_length, marker_style_, estimate_stamp_);
+    markers.markers.insert(markers.markers.end(), screws.markers.begin(), screws.markers.end());
+  }
+  marker_publisher_.publish(markers);
+  if (tip_handle_) tip_handle_->update();
+  backbone_publisher_.publish(toPath(samples, estimate.solution.X_BT, estimate_stamp_, parameters_.frames.base));
 }
 
 void StiffnessNode::diagnoseTracker(DiagnosticStatusWrapper& status) {
@@ -143,20 +121,8 @@ void StiffnessNode::diagnoseTracker(DiagnosticStatusWrapper& status) {
 }
 
 void StiffnessNode::diagnoseSolver(DiagnosticStatusWrapper& status) {
-  if (!estimator_.status().ok())
-    status.summary(DiagnosticStatus::ERROR, estimator_.statusText());
-  else if (estimator_.estimate() == nullptr)
-    status.summary(DiagnosticStatus::WARN, "nothing solved yet");
-  else if (!wrench_watch_.currentFault().empty())
-    status.summary(DiagnosticStatus::WARN, "tip_wrench: " + wrench_watch_.currentFault());
-  else
-    status.summary(DiagnosticStatus::OK, "ok");
-  if (estimator_.estimate() == nullptr) return;
-  const Estimate& estimate = *estimator_.estimate();
   status.add("model", modelName(parameters_.model) + ", " + steppingName(parameters_.model.stepping));
-  status.add("solve time (us)", 1e6 * estimate.solve_time);
-  status.add("iterations", estimate.solution.iterations);
-  status.add("numerical error", estimate.solution.numerical_error);
+  reportSolver(estimator_, wrench_input_.fault(), status);
 }
 
 }  // namespace live_stiffness

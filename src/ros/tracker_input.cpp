@@ -22,6 +22,7 @@ TrackerInput::TrackerInput(ros::NodeHandle node, const NodeParameters& parameter
 
 void TrackerInput::tend() {
   if (!parameters_.tracker_tf_frame.empty() || freshTip() || subscriber_.getNumPublishers() > 0) return;
+  subscriber_.shutdown();  // first, else the new one shares its connections and with them the type
   subscriber_ = node_.subscribe("aurora_pose", 10, &TrackerInput::onMessage, this);
 }
 

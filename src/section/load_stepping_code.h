@@ -85,28 +85,27 @@ typename LoadStepperOf<T>::Actuation LoadStepperOf<T>::actuation(const Pressures
   return on;
 }
 
-// (12), (15), (30): increments with the compliance and chamber positions of the step before.
+// (12), (15), (30): increments with the compliance and chamber positions of the step before. In quantities times powers of
+// lam, so that a step waits for one division only.
 template <class T>
 RestStateOf<T> LoadStepperOf<T>::fixedSteps(const Actuation& on, int steps) const {
   using std::sqrt;
-  T stretch(1.0);
-  Vector2Of<T> curvature = Vector2Of<T>::Constant(T(0.0));
-  const T step = 1.0 / (static_cast<double>(steps) * section_.youngsModulus());
+  T stretch(1.0), x(0.0), y(0.0);
+  const T step = 1.0 / (static_cast<double>(steps) * section_.youngsModulus()), pull = step * on.force;
   for (int i = 0; i < steps; ++i) {
-    const T A = section_.area(stretch);
-    const Matrix2Of<T> I = section_.secondMoments(stretch);
-    const T determinant = I(0, 0) * I(1, 1) - I(0, 1) * I(1, 0);
-    if (!(stretch > 0.0 && A > 0.0 && I(0, 0) + I(1, 1) > 0.0 && determinant > 0.0))
-      return load_stepping::outOfRange(stretch);
-    const T by_moment = step / (determinant * sqrt(stretch));  // 1 / sqrt(lam): the pitch radius shrinks
-    curvature.x() += by_moment * (I(1, 1) * on.moment.x() - I(0, 1) * on.moment.y());
-    curvature.y() += by_moment * (I(0, 0) * on.moment.y() - I(1, 0) * on.moment.x());
-    stretch += stretch * on.force * step / A;
+    const auto scaled = section_.scaled(stretch);
+    if (!scaled.isValid()) return load_stepping::outOfRange(stretch);
+    // I^-1 dT, with 1 / sqrt(lam) as the pitch radius shrinks.
+    const T by_moment = step * stretch * sqrt(stretch) / scaled.determinant();
+    x += by_moment * (scaled.yy * on.moment.x() - scaled.xy * on.moment.y());
+    y += by_moment * (scaled.xx * on.moment.y() - scaled.xy * on.moment.x());
+    stretch += pull * stretch * stretch / scaled.area;  // lam dF / (E A)
   }
   if (!section_.isValidAt(stretch)) return load_stepping::outOfRange(stretch);
   RestStateOf<T> state;
   state.stretch = stretch;
-  state.curvature.template head<2>() = curvature;
+  state.curvature.x() = x;
+  state.curvature.y() = y;
   state.c = section_.complianceDensity(stretch);
   return state;
 }

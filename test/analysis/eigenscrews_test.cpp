@@ -115,6 +115,52 @@ TEST(Eigenscrews, DoNotDependOnTheFrame) {
             << worst_condition << "\n";
 }
 
+// The same for compliances, and for the quick way to the eigenvalues alone.
+TEST(Eigenscrews, OfComplianceDoNotDependOnTheFrame) {
+  RandomSource random(6);
+  double worst = 0.0, worst_quick = 0.0, worst_condition = 0.0;
+  for (double spread : {1.0, 1e3, 1e6})
+    for (int i = 0; i < 100; ++i) {
+      const Matrix6 C = randomStiffness(random, 0.05, spread);  // any definite matrix may be a compliance
+      const Matrix6 moved = complianceInFrame(C, randomPose(random, 0.5));
+      const EigenscrewDecomposition a = eigenscrewsOfCompliance(C), b = eigenscrewsOfCompliance(moved);
+      const Eigenstiffnesses quick = eigenstiffnessesOfCompliance(moved);
+      ASSERT_TRUE(a.definite && b.definite && quick.definite);
+      worst_condition = std::max(worst_condition, stiffnessOf(moved).condition);
+      const double size = std::max(a.screws[0].eigenvalue, -a.screws[3].eigenvalue);
+      for (int k = 0; k < 6; ++k) {
+        worst = std::max(worst, std::abs(a.screws[k].eigenvalue - b.screws[k].eigenvalue) / size);
+        const double inverse = 1.0 / quick.values[k < 3 ? 2 - k : 8 - k];
+        worst_quick = std::max(worst_quick, std::abs(a.screws[k].eigenvalue - inverse) / size);
+      }
+    }
+  EXPECT_LT(worst, 1e-10);
+  EXPECT_LT(worst_quick, 1e-10);
+  EXPECT_GT(worst_condition, 1e8);
+}
+
+// Axes are lines in space: those of the moved matrix, moved back, are the same ones. Eigenvectors are as good as
+// rounding (1e-13, see above) over the gap to the next eigenvalue, which for these draws is some 1e-3 of the largest.
+TEST(Eigenscrews, AreTheSameLinesInSpaceWhateverTheFrame) {
+  RandomSource random(7);
+  constexpr double kLength = 0.05;
+  double worst_angle = 0.0, worst_distance = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    const Matrix6 K = randomStiffness(random, kLength, 1e3);
+    const Pose X_OF = randomPose(random, 0.5);
+    const EigenscrewDecomposition a = eigenscrewsOfStiffness(K), b = eigenscrewsOfStiffness(stiffnessInFrame(K, X_OF));
+    ASSERT_TRUE(a.definite && b.definite);
+    for (int k = 0; k < 6; ++k) {
+      const Eigenscrew& line = a.screws[k];
+      const Vector3 direction = X_OF.R * b.screws[k].direction, point = X_OF.R * b.screws[k].point + X_OF.p;
+      worst_angle = std::max(worst_angle, line.direction.cross(direction).norm());
+      worst_distance = std::max(worst_distance, (point - line.point).cross(line.direction).norm() / kLength);
+    }
+  }
+  EXPECT_LT(worst_angle, 1e-9);
+  EXPECT_LT(worst_distance, 1e-9);
+}
+
 TEST(Eigenscrews, OfTheRobotDoNotDependOnTheFrame) {
   const StiffnessModel model(paperScene(2), accurateTo(1e-11));
   const StiffnessSolution solution = solveCold(model, bars(0.8, {1, 1, 0, 0, 0, 0, 0, 0, 1, 1, 0.5, 0.5}));

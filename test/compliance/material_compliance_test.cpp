@@ -107,5 +107,40 @@ TEST(MaterialCompliance, IsMovedByARigidOffsetAndByNothingElse) {
   EXPECT_LT(complianceError(with.solution.material_compliance, expected, 0.04), 1e-14);
 }
 
+// The section's law decides between closed form and quadrature; a hair of anisotropy forces the second at the same
+// shape.
+TEST(PlaceUnloaded, ArcsEqualQuadratureOfTheSameElements) {
+  Scene scene = weightlessPaperScene(2);
+  scene.tip_offset = Vector3(0.01, -0.02, 0.03);
+  const StaticsSolver solver(scene, 1e-13);
+  for (double bending : {0.0, 1e-160, 1e-12, 1e-4, 0.3, 1.5}) {
+    Backbone arcs(scene), quadrature(scene);
+    for (Backbone* backbone : {&arcs, &quadrature}) {
+      for (int k = 0; k < 2; ++k) {
+        RestState& rest = backbone->rest[k];
+        rest.c = SectionMoments(segmentOf(scene, k).section).complianceDensity(1.2);
+        rest.stretch = 1.2;
+        rest.curvature = bending / (1.2 * segmentOf(scene, k).length) * Vector3(0.6, k == 0 ? 0.8 : -0.8, 0.0);
+        if (backbone == &quadrature) rest.c.bending_torsion(1, 1) *= 1.0 + 4e-16;
+      }
+      StaticsSolver(scene, 1e-13).prepareUnloaded(*backbone);
+    }
+    Matrix6 by_arcs, by_quadrature;
+    placeUnloaded(solver.chain(), 1e-13, arcs, by_arcs);
+    placeUnloaded(solver.chain(), 1e-13, quadrature, by_quadrature);
+    // Twelve nodes on 1.5 rad err by 2e-13 of their largest integrand (interpolationError in element_material_code.h).
+    EXPECT_LT(complianceError(by_arcs, by_quadrature, 0.08), 1e-12) << bending;
+    EXPECT_LT(poseError(arcs.X_BT, quadrature.X_BT, 0.08), 1e-14) << bending;
+    for (int segment : {0, 1})
+      for (double fraction : {0.0, 0.2, 0.77, 1.0}) {
+        Station a, b;
+        stationsAt(arcs, segment, &fraction, 1, 1e-13, false, &a);
+        stationsAt(quadrature, segment, &fraction, 1, 1e-13, false, &b);
+        EXPECT_TRUE(matrixNear(a.compliance, b.compliance, 1e-12 * by_arcs.norm())) << bending << " " << fraction;
+        EXPECT_LT(poseError(a.X_BS, b.X_BS, 0.08), 1e-13) << bending << " " << fraction;
+      }
+  }
+}
+
 }  // namespace
 }  // namespace live_stiffness

@@ -33,6 +33,15 @@ awk -F, 'NF != 88 {exit 1}' "$work/out" || fail "not 88 columns"
 solve "$lengths\n$(sed -n 2p "$work/out" | cut -d, -f83-88)\n"
 awk -F, 'NR == 2 {exit !($1 == "ok" && $4 > 0.05 - 1e-9 && $4 < 0.05 + 1e-9 && $6 > 0.4 - 1e-9 && $6 < 0.4 + 1e-9)}' "$work/out" || fail "not back at the pose"
 
+# Points: the rods of the scene start at radius 0.073 m in the base, and end there, turned, at a straight platform.
+solve "x_m,y_m,z_m,qw,qx,qy,qz\n0,0,.4,1,0,0,0\n" --inverse --points 3
+[ "$(head -1 "$work/out" | cut -d, -f89,142)" = r1_1_x_m,r6_3_z_m ] || fail "columns of --points"
+sed -n 2p "$work/out" | awk -F, '{r1 = sqrt($89 ^ 2 + $90 ^ 2); r3 = sqrt($95 ^ 2 + $96 ^ 2); exit !(NF == 142 &&
+  (r1 - 0.073) ^ 2 < 1e-18 && $91 == 0 && (r3 - 0.073) ^ 2 < 1e-18 && ($97 - 0.4) ^ 2 < 1e-18 && $94 > 0.15 && $94 < 0.25)}' ||
+  fail "points of a rod"
+solve "$lengths\n.4,.41,.4,.41,.4,.41\n" --points 1
+[ $status = 2 ] && grep -q "points = 1: must be" "$work/err" || fail "bad points"
+
 solve 'l_1_m,colour\n'
 [ $status = 2 ] && grep -q "l_6_m is missing" "$work/err" && grep -q "column colour: unknown" "$work/err" || fail "bad header"
 "$program" --help | grep -q "l_1_m,...,l_N_m" || fail help

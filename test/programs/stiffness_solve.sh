@@ -32,6 +32,20 @@ for model in lpcc npcc lcm ncm; do
 done
 [ "$(cut -d, -f1 "$work/lpcc" "$work/npcc" | sort -u)" = 0 ] || fail "PCC must take the closed form"
 [ "$(cat "$work"/{lpcc,npcc,lcm,ncm} | sort -u | wc -l)" = 4 ] || fail "four models must give four answers"
+
+# Stations: that at the end of the only segment is the tip. Deflection: the exponential from the tangent is exact to
+# first order, so that at 1e-4 N (a motion of some 3e-6 m) it misses by much less than the motion.
+solve 'p_1_pa,p_2_pa,p_3_pa,p_4_pa,p_5_pa,p_6_pa,fx_n,fy_n,fz_n,mx_nm,my_nm,mz_nm\n9e4,9e4,0,0,0,0,1e-4,0,0,0,0,0\n' \
+  --stations 0.5,1 --deflection
+[ $status = 0 ] || fail "stations and deflection"
+[ "$(head -1 "$work/out" | cut -d, -f83,90,126,168,169,180)" = \
+  s1_0.5_x_m,s1_0.5_material_11,s1_1_x_m,s1_1_material_66,tangent_linear_x_m,material_exponential_z_m ] || fail "further columns"
+sed -n 2p "$work/out" | awk -F, '
+  function near(a, b, e) {return (a - b) ^ 2 < e * e}
+  {exit !(NF == 180 && near($4, $126, 1e-12) && near($6, $128, 1e-12) && near($47, $133, 1e-9) && $90 < 0.5 * $133 &&
+          near($4, $172, 1e-8) && near($6, $174, 1e-8))}' || fail "values of stations and deflection"
+solve '' --stations 0.5,1.5
+[ $status = 2 ] && grep -q "stations = 0.5,1.5: must be" "$work/err" || fail "bad stations"
 solve '' --model lcm --stepping continuous
 [ $status = 2 ] && grep -q contradicts "$work/err" || fail "contradiction"
 solve 'p_1_pa\n'

@@ -5,6 +5,7 @@
 
 #include <iostream>
 
+#include "live_stiffness/compliance/material_compliance.h"
 #include "live_stiffness/rod/kinematics.h"
 #include "support/differences.h"
 #include "support/errors.h"
@@ -130,7 +131,9 @@ TEST(Statics, WithoutLoadIsTheUnloadedShape) {
   EXPECT_TRUE(matrixNear(solver.baseMoment(), Vector3::Zero(), 0.0));
   Backbone closed(scene);
   closed.rest = backbone.rest;
-  solver.placeUnloaded(closed);
+  Matrix6 unused;
+  solver.prepareUnloaded(closed);
+  placeUnloaded(solver.chain(), 1e-12, closed, unused);
   EXPECT_LT(poseError(backbone.X_BT, closed.X_BT, scene.length()), 1e-12);  // the accuracy asked for
 }
 
@@ -205,6 +208,48 @@ TEST(TangentCompliance, DivergesAtReissnersBucklingLoad) {
   // this distance leaves (1e-3)^2.
   const double a = 1.0 / lateral(0.998 * critical), b = 1.0 / lateral(0.999 * critical);
   EXPECT_NEAR(0.999 - b * 0.001 / (b - a), 1.0, 3e-6);
+}
+
+// Warm solves go on from the last change. That may save passes; it must not show in the result, whatever the pressures
+// do next.
+TEST(WarmStart, IsAsAccurateAsAColdOneWhateverThePressuresDo) {
+  const std::vector<Pressures> steps = {bars(0.40, {1, 1, 0.5, 0.5, 0, 0}), bars(0.41, {1, 1, 0.5, 0.5, 0, 0}),
+                                        bars(0.42, {1, 1, 0.5, 0.5, 0, 0}), bars(0.43, {1, 1, 0.5, 0.5, 0, 0}),
+                                        bars(0.42, {1, 1, 0.5, 0.5, 0, 0}), bars(0.42, {1, 1, 0.5, 0.5, 0, 0}),
+                                        bars(0.60, {0, 1, 0.5, 0.5, 1, 0}), bars(0.61, {0, 1, 0.5, 0.5, 1, 0}),
+                                        bars(0.0, {0, 0, 0, 0, 0, 0}),      bars(0.02, {0, 1, 0, 0, 0, 0})};
+  for (const Vector3& gravity : {Vector3(0.0, 0.0, -9.81), Vector3(4.0, -5.0, -7.0)})
+    for (double accuracy : {1e-3, 1e-6, 1e-9}) {
+      Scene scene = paperScene(1);
+      scene.gravity = gravity;
+      const StiffnessModel model(scene, accurateTo(accuracy)), exact(scene, accurateTo(1e-13));
+      StiffnessWorkspace workspace = model.makeWorkspace();
+      for (size_t i = 0; i < steps.size(); ++i) {
+        const StiffnessSolution warm = model.solve(steps[i], Wrench::Zero(), workspace);
+        const StiffnessSolution expected = solveCold(exact, steps[i]);
+        ASSERT_TRUE(warm.status.ok() && expected.status.ok());
+        EXPECT_LT(complianceError(warm.compliance, expected.compliance, scene.length()), accuracy) << i;
+        EXPECT_LT(complianceError(warm.material_compliance, expected.material_compliance, scene.length()), accuracy) << i;
+        EXPECT_LT(poseError(warm.X_BT, expected.X_BT, scene.length()), accuracy) << i;
+      }
+    }
+}
+
+TEST(WarmStart, TakesFewerSweepsWhereThePressuresGoOnAsBefore) {
+  const StiffnessModel model(paperScene(1), accurateTo(1e-9));
+  const auto sweeps = [&](bool steady) {
+    StiffnessWorkspace workspace = model.makeWorkspace();
+    int count = 0;
+    double a = 0.5, b = 0.5;
+    for (int i = 0; i < 10; ++i) {
+      (steady || i % 2 == 0 ? a : b) += 0.01;  // the same step in one direction, or in two by turns
+      const StiffnessSolution solution = model.solve(bars(1.0, {a, a, b, b, 0, 0}), Wrench::Zero(), workspace);
+      EXPECT_TRUE(solution.status.ok());
+      if (i >= 3) count += solution.iterations;
+    }
+    return count;
+  };
+  EXPECT_LT(sweeps(true), sweeps(false));
 }
 
 }  // namespace

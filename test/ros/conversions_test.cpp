@@ -2,6 +2,7 @@
 
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <gtest/gtest.h>
+#include <live_stiffness/RodLengths.h>
 #include <std_msgs/Float32MultiArray.h>
 #include <std_msgs/Float64MultiArray.h>
 #include <std_msgs/String.h>
@@ -136,6 +137,58 @@ TEST(Conversions, TrackingErrorIsMeasuredMinusPredicted) {
   EXPECT_NEAR(error.angle, 0.02, 1e-14);
   EXPECT_NEAR(error.rotation.y, 0.02, 1e-14);
   EXPECT_NEAR(error.translation.z, -0.004, 1e-15);
+}
+
+TEST(Conversions, RodLengthsAreReadInTheirUnit) {
+  RodLengths stamped;
+  stamped.header.stamp = ros::Time(2.0);
+  stamped.length = {400.0, 410.0};
+  std_msgs::Float64MultiArray bare;
+  bare.data = stamped.length;
+  for (const auto& reading : {readRodLengths(onTheWire(stamped), 1e-3), readRodLengths(onTheWire(bare), 1e-3)}) {
+    ASSERT_TRUE(reading.ok()) << reading.fault;
+    ASSERT_EQ(reading.value.size(), 2);
+    EXPECT_NEAR(reading.value[1], 0.41, 1e-15);
+  }
+  bare.data[1] = kNaN;
+  EXPECT_NE(readRodLengths(onTheWire(bare), 1.0).fault.find("rod 2"), std::string::npos);
+  EXPECT_NE(readRodLengths(onTheWire(std_msgs::String()), 1.0).fault.find("live_stiffness/RodLengths"),
+            std::string::npos);
+}
+
+TEST(Conversions, WrenchIsTurnedFromTheAxesOfItsFrameToBaseAxes) {
+  const FrameNames frames{"base", "tip"};
+  const Pose X_BT = somePose();
+  Wrench wrench;
+  wrench << 1.0, -2.0, 3.0, 0.1, 0.2, -0.3;
+  const auto in_base = readWrench(toWrenchStamped(wrench, ros::Time(1.0), "/base"), frames, nullptr);
+  ASSERT_TRUE(in_base.ok()) << in_base.fault;
+  EXPECT_EQ(in_base.value, wrench);
+  const auto in_tip = readWrench(toWrenchStamped(wrench, ros::Time(1.0), "tip"), frames, &X_BT);
+  ASSERT_TRUE(in_tip.ok()) << in_tip.fault;
+  EXPECT_LT((linear(in_tip.value) - X_BT.R * linear(wrench)).norm(), 1e-15);
+  EXPECT_LT((angular(in_tip.value) - X_BT.R * angular(wrench)).norm(), 1e-15);
+  EXPECT_NE(readWrench(toWrenchStamped(wrench, ros::Time(1.0), "tip"), frames, nullptr).fault.find("not known"),
+            std::string::npos);
+  EXPECT_NE(readWrench(toWrenchStamped(wrench, ros::Time(1.0), "camera"), frames, &X_BT).fault.find("camera"),
+            std::string::npos);
+  wrench[4] = kNaN;
+  EXPECT_FALSE(readWrench(toWrenchStamped(wrench, ros::Time(1.0), "base"), frames, nullptr).ok());
+}
+
+TEST(Conversions, StandingTellsBadInputFromSilence) {
+  StiffnessEstimate message;
+  setStanding(SolveCode::kOk, "", false, 0.5, "pressures", message);
+  EXPECT_FALSE(message.stale);
+  EXPECT_TRUE(message.message.empty());
+  setStanding(SolveCode::kOk, "", true, 0.5, "pressures", message);
+  EXPECT_TRUE(message.stale);
+  EXPECT_EQ(message.message, "no pressures for more than 0.5 s");
+  setStanding(SolveCode::kOk, "5 channels: must be 6", false, 0.5, "pressures", message);
+  EXPECT_EQ(message.status, StiffnessEstimate::INVALID_INPUT);
+  setStanding(SolveCode::kUnstable, "would topple", true, 0.5, "pressures", message);
+  EXPECT_EQ(message.status, StiffnessEstimate::UNSTABLE);
+  EXPECT_EQ(message.message, "would topple");
 }
 
 }  // namespace

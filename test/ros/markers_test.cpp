@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <set>
+#include <tuple>
 
 #include "live_stiffness/rod/scene_file.h"
 
@@ -94,6 +96,86 @@ TEST_F(MarkersTest, StaleIsGreyAndSaysSo) {
   const auto& color = find(array, "tip_ellipsoid", 0).color;
   EXPECT_EQ(color.r, color.b);
   EXPECT_NE(find(array, "text", 0).text.find("STALE"), std::string::npos);
+}
+
+TEST_F(MarkersTest, EllipsoidsOfEachSegmentHaveTheirOwnColour) {
+  StiffnessEstimator two(loadSceneFile(std::string(SOURCE_DIR) + "/config/scenes/paper_two_segments.yaml"),
+                         ModelOptions(), EstimatorOptions());
+  two.setPressures(Pressures::Constant(12, 20e3));
+  const MarkerArray array =
+      makeMarkers(*two.estimate(), two.sampleBackbone(5), std::nullopt, false, style_, ros::Time());
+  std::set<std::tuple<float, float, float>> of_first, of_second;
+  for (int i = 0; i < 10; ++i) {
+    const auto& shade = find(array, "ellipsoids", i).color;
+    (i < 5 ? of_first : of_second).emplace(shade.r, shade.g, shade.b);
+  }
+  EXPECT_EQ(of_first.size(), 1u);
+  EXPECT_EQ(of_second.size(), 1u);
+  EXPECT_NE(*of_first.begin(), *of_second.begin());
+}
+
+// The lines drawn, with eigenvalue and pitch from the labels, must add up to the stiffness: sum of k w w^T with
+// k = eta / (2 h).
+TEST_F(MarkersTest, EigenscrewLinesAndLabelsMakeUpTheStiffness) {
+  const MarkerArray array = makeEigenscrewMarkers(*estimator_.estimate(), false, 0.08, style_, ros::Time(1.0));
+  Matrix6 sum = Matrix6::Zero();
+  int positive = 0;
+  for (int i = 0; i < 6; ++i) {
+    const Marker& line = find(array, "eigenscrews", i);
+    ASSERT_EQ(line.points.size(), 2u);
+    const Vector3 from(line.points[0].x, line.points[0].y, line.points[0].z),
+        to(line.points[1].x, line.points[1].y, line.points[1].z);
+    EXPECT_NEAR((to - from).norm(), 0.08, 1e-12);
+    double eigenvalue, pitch_mm;
+    const std::string& label = find(array, "eigenscrews", 6 + i).text;
+    ASSERT_EQ(std::sscanf(label.c_str(), "%lf N, %lf mm/rad", &eigenvalue, &pitch_mm), 2) << label;
+    positive += eigenvalue > 0.0;
+    const double pitch = 1e-3 * pitch_mm;
+    const Vector3 n = (to - from).normalized(), r = 0.5 * (from + to) - estimator_.estimate()->solution.X_BT.p;
+    Vector6 w;
+    w << n, r.cross(n) + pitch * n;
+    sum += eigenvalue / (2.0 * pitch) * w * w.transpose();
+  }
+  EXPECT_EQ(positive, 3);
+  // Labels have three digits.
+  const Matrix6& K = estimator_.estimate()->stiffness;
+  EXPECT_LT((sum - K).leftCols(3).topRows(3).norm(), 0.02 * K.leftCols(3).topRows(3).norm());
+}
+
+TEST_F(MarkersTest, EigenscrewsAreRemovedWhenStaleOrWithoutAnyToShow) {
+  Estimate indefinite = *estimator_.estimate();
+  indefinite.stiffness(0, 0) = -1.0;
+  for (const MarkerArray& array : {makeEigenscrewMarkers(*estimator_.estimate(), true, 0.08, style_, ros::Time()),
+                                   makeEigenscrewMarkers(indefinite, false, 0.08, style_, ros::Time())}) {
+    EXPECT_EQ(array.markers.size(), 12u);
+    for (const Marker& marker : array.markers) EXPECT_EQ(marker.action, Marker::DELETE);
+  }
+}
+
+TEST_F(MarkersTest, GhostHasAShapeAnArrowAsLongAsTheForceAndAText) {
+  Ghost ghost;
+  ghost.X_BT.p = Vector3(0.01, 0.02, 0.03);
+  ghost.shape = {Pose(), ghost.X_BT};
+  ghost.force = Vector3(0.0, 0.4, 0.0);
+  ghost.text = "0.4 N";
+  const MarkerArray array = makeGhostMarkers(&ghost, 20.0, style_, ros::Time());
+  const Marker& arrow = find(array, "ghost_force", 0);
+  ASSERT_EQ(arrow.points.size(), 2u);
+  EXPECT_NEAR(arrow.points[1].y - arrow.points[0].y, 0.02, 1e-12) << "0.4 N at 20 N/m";
+  EXPECT_EQ(find(array, "ghost", 0).action, Marker::ADD);
+  EXPECT_LT(find(array, "ghost", 0).color.a, 1.0) << "a ghost lets the robot shine through";
+  EXPECT_EQ(find(array, "ghost_text", 0).text, "0.4 N");
+}
+
+TEST_F(MarkersTest, GhostWithoutAnEquilibriumIsATextAlone) {
+  Ghost ghost;
+  ghost.text = "no stable equilibrium there";
+  const MarkerArray refused = makeGhostMarkers(&ghost, 20.0, style_, ros::Time()),
+                    none = makeGhostMarkers(nullptr, 20.0, style_, ros::Time());
+  EXPECT_EQ(find(refused, "ghost_text", 0).action, Marker::ADD);
+  EXPECT_EQ(find(refused, "ghost", 0).action, Marker::DELETE);
+  EXPECT_EQ(find(refused, "ghost_force", 0).action, Marker::DELETE);
+  for (const Marker& marker : none.markers) EXPECT_EQ(marker.action, Marker::DELETE);
 }
 
 }  // namespace

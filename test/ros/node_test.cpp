@@ -17,46 +17,12 @@
 #include "live_stiffness/estimation/tip_force.h"
 #include "live_stiffness/rod/scene_file.h"
 #include "live_stiffness/ros/conversions.h"
-#include "support/estimate_checks.h"
-#include "support/ros_wait.h"
+#include "support/driven_node.h"
 
 namespace live_stiffness {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-// One node under test: its newest messages, and whether any was ever not finite.
-class Watched {
- public:
-  explicit Watched(const std::string& name)
-      : estimates_(node_.subscribe(name + "/estimate", 100, &Watched::onEstimate, this)),
-        errors_(node_.subscribe(name + "/tracking_error", 100, &Watched::onError, this)),
-        forces_(node_.subscribe(name + "/tip_wrench_estimate", 100, &Watched::onForce, this)) {}
-
-  StiffnessEstimate::ConstPtr estimate;
-  TrackingError::ConstPtr error;
-  geometry_msgs::WrenchStamped::ConstPtr force;
-  long estimates = 0;
-  bool always_finite = true;
-
- private:
-  void onEstimate(const StiffnessEstimate::ConstPtr& message) {
-    estimate = message;
-    ++estimates;
-    always_finite = always_finite && isFinite(*message);
-  }
-  void onError(const TrackingError::ConstPtr& message) { error = message; }
-  void onForce(const geometry_msgs::WrenchStamped::ConstPtr& message) { force = message; }
-
-  ros::NodeHandle node_;
-  ros::Subscriber estimates_, errors_, forces_;
-};
-
-std::string parameter(const std::string& key) {
-  std::string value;
-  ros::NodeHandle("~").getParam(key, value);
-  return value;
-}
 
 class StiffnessNodeTest : public ::testing::Test {
  protected:
@@ -77,32 +43,12 @@ class StiffnessNodeTest : public ::testing::Test {
 
   void TearDown() override { EXPECT_TRUE(watched_.always_finite) << "a published estimate was not finite"; }
 
-  static Pressures pressures(std::initializer_list<double> values) {
-    Pressures result(values.size());
-    std::copy(values.begin(), values.end(), result.data());
-    return result;
-  }
-
-  // Publishes pressures again and again, as a rig does, until the condition holds.
   template <class Condition>
-  bool publishUntil(const Pressures& values, Condition condition, double timeout_s = 20.0) {
-    ros::WallTime last(0);
-    return waitFor(
-        [&] {
-          if (ros::WallTime::now() - last > ros::WallDuration(0.05)) {
-            last = ros::WallTime::now();
-            pressures_.publish(toPressures(values, ros::Time::now()));
-          }
-          return condition();
-        },
-        timeout_s);
+  bool publishUntil(const Pressures& values, Condition condition) {
+    return live_stiffness::publishUntil([&] { pressures_.publish(toPressures(values, ros::Time::now())); }, condition);
   }
 
-  bool solvedFor(const Pressures& values) const {
-    const auto& estimate = watched_.estimate;
-    return estimate && !estimate->stale && estimate->pressure.size() == static_cast<size_t>(values.size()) &&
-           Pressures::Map(estimate->pressure.data(), values.size()) == values;
-  }
+  bool solvedFor(const Pressures& values) const { return watched_.solvedFor(values); }
 
   StiffnessSolution expected(const Pressures& values, const Wrench& wrench = Wrench::Zero()) const {
     StiffnessWorkspace workspace = model_.makeWorkspace();
@@ -119,8 +65,8 @@ class StiffnessNodeTest : public ::testing::Test {
     return found == texts_.end() ? "" : found->second;
   }
 
-  const Pressures bent_ = pressures({60e3, 60e3, 0.0, 0.0, 0.0, 0.0});
-  const Pressures other_ = pressures({0.0, 0.0, 90e3, 90e3, 30e3, 30e3});
+  const Pressures bent_ = pressuresOf({60e3, 60e3, 0.0, 0.0, 0.0, 0.0});
+  const Pressures other_ = pressuresOf({0.0, 0.0, 90e3, 90e3, 30e3, 30e3});
 
   ros::NodeHandle node_;
   StiffnessModel model_;
@@ -192,10 +138,10 @@ TEST_F(StiffnessNodeTest, BadPressuresKeepTheLastGoodEstimateMarkedStale) {
     std::string word;
   };
   const std::vector<Case> cases = {
-      {pressures({kNaN, 0.0, 0.0, 0.0, 0.0, 0.0}), StiffnessEstimate::INVALID_INPUT, "finite"},
-      {pressures({1e3, 1e3, 1e3}), StiffnessEstimate::INVALID_INPUT, "channels"},
-      {pressures({-2e5, 0.0, 0.0, 0.0, 0.0, 0.0}), StiffnessEstimate::INVALID_INPUT, "-101325"},
-      {pressures({3e5, 3e5, 3e5, 3e5, 3e5, 3e5}), StiffnessEstimate::OUT_OF_RANGE, "stretch"},
+      {pressuresOf({kNaN, 0.0, 0.0, 0.0, 0.0, 0.0}), StiffnessEstimate::INVALID_INPUT, "finite"},
+      {pressuresOf({1e3, 1e3, 1e3}), StiffnessEstimate::INVALID_INPUT, "channels"},
+      {pressuresOf({-2e5, 0.0, 0.0, 0.0, 0.0, 0.0}), StiffnessEstimate::INVALID_INPUT, "-101325"},
+      {pressuresOf({3e5, 3e5, 3e5, 3e5, 3e5, 3e5}), StiffnessEstimate::OUT_OF_RANGE, "stretch"},
   };
   for (const Case& bad : cases) {
     SCOPED_TRACE(bad.word);

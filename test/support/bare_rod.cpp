@@ -13,8 +13,7 @@ Vector3 tipByMarchingFromTip(const BareRod& rod, const Vector3& tip_force, const
   element.setStart(Pose(), tip_force, Vector3::Zero());
   element.state.length = -std::get<Segment>(rod.scene.chain[0]).length / kElements;
   for (int i = 0; i < kElements; ++i) {
-    resetGuess(element);
-    if (!integrate(passes, element)) throw std::runtime_error("tipByMarchingFromTip: element too long");
+    if (!integrate(passes, true, element)) throw std::runtime_error("tipByMarchingFromTip: element too long");
     element.setStart(element.X_end(), element.n_end(), element.m_end());
   }
   return element.X_start().inverse().p;

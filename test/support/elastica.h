@@ -9,8 +9,8 @@
 namespace live_stiffness {
 
 // Force of size P at an angle beta (0 < beta < pi) from -z towards +x: (P sin(beta), 0, -P cos(beta)).
-// With psi the tangent's angle plus beta, psi'' + P sin(psi) = 0, psi(0) = beta, psi'(1) = 0; sin(psi / 2) = k sin(phi).
-// This is the shape of least energy; P above pi^2 / 4 is beyond buckling as beta goes to zero.
+// With psi the tangent's angle plus beta, psi'' + P sin(psi) = 0, psi(0) = beta, psi'(1) = 0; sin(psi / 2) = k
+// sin(phi). This is the shape of least energy; P above pi^2 / 4 is beyond buckling as beta goes to zero.
 inline Vector3 elasticaTip(double P, double beta) {
   const auto phi_at_base = [&](double k) { return std::asin(std::min(1.0, std::sin(0.5 * beta) / k)); };
   const auto excess = [&](double k) {

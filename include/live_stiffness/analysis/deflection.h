@@ -20,10 +20,13 @@ struct PoseDifference {
   double rotation = 0.0;  // rad
 };
 PoseDifference differenceOf(const Pose& a, const Pose& b);
+// Poses of T that two solves of one load found are the same equilibrium, up to what the model's accuracy explains.
+bool isSameEquilibrium(const Pose& a, const Pose& b, const StiffnessModel& model);
 
 struct DeflectionCheck {
   SolveStatus status;            // of the equilibrium before, or if that is found of the one under the wrench added
-  bool undeflected_ok = false;   // the equilibrium before was found; `predicted` holds
+  bool undeflected_ok = false;   // the equilibrium before was found; the next two hold
+  Pose undeflected;              // of T before
   PredictedDeflection predicted;
   Pose exact;                    // of T under both wrenches; this and the rest only if status.ok()
   PoseDifference linear_error, exponential_error;  // of the predictions from `exact`

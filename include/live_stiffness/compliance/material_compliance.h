@@ -14,13 +14,18 @@ struct Station {
   Matrix6 compliance = Matrix6::Zero();
 };
 
-// tip_compliance: material compliance of the whole chain about T, base axes. Prepares the elements for stations of this accuracy.
-// loaded: the backbone comes from statics. Returns an estimate of the relative error that this adds to that of the shape.
-double accumulateMaterial(Backbone& backbone, double accuracy, bool loaded, Matrix6& tip_compliance);
+// tip_compliance: material compliance of the whole chain about T, base axes. Prepares the elements for stations of this
+// accuracy. The shape must come from statics. Returns an estimate of the relative error that this adds to that of the
+// shape.
+double accumulateMaterial(const Chain& chain, double accuracy, Backbone& backbone, Matrix6& tip_compliance);
+
+// The same of a chain on which nothing external acts, with its shape: X_BT and elements, of which there must be enough
+// (see StaticsSolver::prepareUnloaded()). In closed form where the section bends the same in all directions.
+double placeUnloaded(const Chain& chain, double accuracy, Backbone& backbone, Matrix6& tip_compliance);
 
 // Stations at fractions (0 to 1, in any order; values beyond are moved to the ends) of a segment's length. Needs
-// accumulateMaterial(). Read from the collocation polynomials where these are accurate enough (relative), else
-// integrated anew. Both arrays are of `size`.
+// accumulateMaterial() or placeUnloaded(). Read from the collocation polynomials where these are accurate enough
+// (relative), else integrated anew. Both arrays are of `size`.
 void stationsAt(const Backbone& backbone, int segment, const double* fractions, size_t size, double accuracy,
                 bool loaded, Station* out);
 

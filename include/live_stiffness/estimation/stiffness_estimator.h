@@ -26,6 +26,10 @@ struct Estimate {
   double solve_time = 0.0;              // s
 };
 
+// The shape of the last successful solve in a workspace at per_segment + 1 evenly spaced sections of each segment
+// (compliance included), base to tip.
+std::vector<Station> sampleBackbone(const StiffnessModel& model, const StiffnessWorkspace& workspace, int per_segment);
+
 class StiffnessEstimator {
  public:
   enum class Outcome { kUnchanged, kSolved, kFailed };
@@ -47,8 +51,7 @@ class StiffnessEstimator {
   std::string statusText() const { return status_.ok() ? "" : model_.describe(status_); }
   const StiffnessModel& model() const { return model_; }
 
-  // The shape of the newest solve at per_segment + 1 evenly spaced sections of each segment (compliance included),
-  // base to tip. Empty unless status() is ok and there is an estimate.
+  // The shape of the newest solve, as above. Empty unless status() is ok and there is an estimate.
   std::vector<Station> sampleBackbone(int per_segment) const;
 
  private:

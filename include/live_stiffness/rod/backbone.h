@@ -27,6 +27,8 @@ struct Backbone {
   // Makes as many elements as element_count says, of so many stages. True if that changed anything: nodes and columns
   // then hold no guess.
   bool resize(int stages);
+  // X_BT from numbers, R row-major.
+  void setTip(const double (&R)[9], const double (&p)[3]);
 
  private:
   Simd simd_;

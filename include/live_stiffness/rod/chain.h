@@ -3,16 +3,13 @@
 
 #include <vector>
 
+#include "live_stiffness/rod/chain_state.h"
 #include "live_stiffness/rod/scene.h"
 
 namespace live_stiffness {
 
 struct Chain {
-  struct Part {
-    int segment;    // index of the segment, -1: rigid link
-    double length;  // unstretched, m
-    double mass;    // kg; of a segment spread along it, of a link at its middle
-  };
+  using Part = ChainPart;
 
   std::vector<Part> parts;  // base to tip
   double mass = 0.0;        // of everything, kg

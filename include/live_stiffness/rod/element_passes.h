@@ -1,31 +1,57 @@
 #pragma once
-// What is done to an element, as plain functions, for one number of stages and one instruction set.
+// What is done to elements and chains of them, as plain functions, for one number of stages and one instruction set.
 
-#include "live_stiffness/rod/element_state.h"
+#include "live_stiffness/rod/chain_state.h"
 
 namespace live_stiffness {
 
 struct ElementPasses {
   int stages;
+
+  // One element.
+
+  // Starts the passes from the unloaded shape under a constant moment.
+  void (*reset_guess)(ElementState&);
+  // Moves the guess g along with a change of rest curvature: by so much, rad, at the end. `steadiness`: how far the
+  // change goes on as the last one did, 1 if it is the same; 0 if nothing is known. The columns go on, too, if asked
+  // for.
+  void (*predict)(ElementState&, const double (&turn)[3], double steadiness, bool with_columns);
   // One fixed-point pass over the nodes, from g to g; then the end values, change and size.
   void (*pass)(ElementState&);
-  // The same, and the shape at the nodes, the offset of the end and truncation.
-  void (*finish)(ElementState&);
+  // Passes until the shape has converged to rounding; then all that ElementState says of it. False if they do not.
+  bool (*integrate)(ElementState&);
   // Shape, and g, of a rod under u_rest alone. Exact, for at most kMaxUnloadedBending rad.
   void (*place_unloaded)(ElementState&);
-  // Matrices of the linearised rod, after finish().
-  void (*linearise)(ElementState&);
-  // One fixed-point pass over the columns at the nodes, from these values at the start.
-  void (*column_pass)(ElementState&, const ElementColumns& start);
   // Moves the guess g along with a change of the base moment (N m), to first order, by the columns held.
   void (*follow)(ElementState&, const double (&base_moment_change)[3]);
-  // Columns at the end from those at the nodes.
-  void (*column_end)(ElementState&, const ElementColumns& start, ElementColumns& end);
-  // What stations() needs for this relative accuracy (see station_error for what comes of it), and the integral of
-  // material compliance; after place_unloaded(), or after finish() under dead loads.
+  // Columns at the end from those at the start, see propagate().
+  double (*propagate)(ElementState&, bool anew, const ElementColumns& start, double goal, bool with_defect,
+                      ElementColumns& end);
+  // Material compliance and what stations() needs for this relative accuracy (see station_error for what comes of it);
+  // after place_unloaded(), or after the shape under dead loads.
   void (*material)(ElementState&, bool unloaded, double accuracy);
-  // Sections between the nodes, after material().
+  // end_compliance from start_compliance and that of the element.
+  void (*add_compliance)(ElementState&);
+  // Sections between the nodes, after material() and with start_compliance set.
   void (*stations)(const ElementState&, const StationBatch&);
+
+  // A chain.
+
+  // One sweep over all elements, from base to tip, under the base moment.
+  void (*sweep)(const ChainState&, Pass, SweepResult&);
+  // follow() for each element.
+  void (*follow_all)(const ChainState&, const double (&base_moment_change)[3]);
+  // See tipColumns().
+  double (*columns)(const ChainState&, bool anew, double goal, bool with_defect, ElementColumns& tip);
+  // From the columns at the tip: inverse of the derivative of the residual with respect to the base moment, and the
+  // compliance of T under a dead wrench [f; m] at T; with their defect taken out if `correct`. 3x3 and 6x6,
+  // column-major.
+  void (*tangent)(const ElementColumns& tip, bool correct, double* inverse, double* compliance);
+  // Material compliance of the whole chain about T, which is at p_tip, and of what is before each element; after the
+  // shape under dead loads. Returns an estimate of the relative error that this adds to that of the shape.
+  double (*accumulate)(const ChainState&, double accuracy, const double (&p_tip)[3], PackedRow& compliance);
+  // The same of a chain on which nothing external acts, with its shape. Sets R_tip and p_tip of the result.
+  double (*place_chain)(const ChainState&, double accuracy, SweepResult&, PackedRow& compliance);
 };
 
 constexpr double kMaxUnloadedBending = 1.6;  // rad an element

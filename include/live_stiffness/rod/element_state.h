@@ -11,10 +11,21 @@ constexpr int kMinStages = 2;
 constexpr int kMaxStages = 7;
 typedef double StageRow[kMaxStages + 1] __attribute__((aligned(64)));
 
-// A symmetric 6x6 compliance in 21 numbers: linear block (symmetric), upper right block (3x3), angular block.
-constexpr int kPackedSize = 21;
+// A symmetric 6x6 compliance in 21 numbers: linear block (symmetric), upper right block (3x3), angular block;
+// the rest of a row is not used.
+constexpr int kPackedSize = 21, kPackedRow = 24;
+typedef double PackedRow[kPackedRow] __attribute__((aligned(32)));
+
+// A row of ElementState::dense: density of compliance about the element's start, then tangent p', then rate of g; the
+// rest is not used.
+constexpr int kDenseTangent = kPackedSize, kDenseRate = kDenseTangent + 3, kDenseRow = 28;
 
 struct ElementState {
+  // Where it is.
+  int segment;                                // index of the segment it is part of
+  double start;                               // arc length of its start from the segment's base, stretched, m
+  double p_start[3];                          // position of its first section in B, m
+
   // Set by the caller.
   double length;                              // stretched, m; negative: from tip towards base
   double R_start[9];                          // orientation of its first section
@@ -38,12 +49,12 @@ struct ElementState {
   double truncation;      // size of the highest Legendre coefficient of length * g', or what the one below lets expect
   double interior_error;  // estimate of the relative error of the shape between the nodes
 
-  // Shape at the nodes, filled by finish(); offsets by place_unloaded(), too.
+  // Shape at the nodes, filled by evaluate(); offsets by place_unloaded(), too.
   StageRow R[9], tangent[3], offset[3];  // orientation, p', position from the start (m)
   StageRow n[3], m[3];
   double offset_end[3];
 
-  // Linearised rod at the nodes, filled by linearise(): length times B, M and P of columns' rates.
+  // Linearised rod at the nodes, filled by propagate(): length times B, M and P of columns' rates.
   StageRow bend[6], m_of_phi[9], p_of_phi[9];
   double stretch[6];  // integral of S = R c_se R^T, symmetric
 
@@ -51,27 +62,31 @@ struct ElementState {
   StageRow phi[6][3], dm[6][3];
   StageRow phi_rate[6][3];  // what phi is the integral of
   double phi_start[6][3];
+  // Of the solution before: what predict() goes on from.
+  double turn[3];  // of the rest curvature from there to here, rad
+  StageRow g_before[3], phi_before[6][3], phi_rate_before[6][3];
   double column_change;      // of the last pass, relative
   double column_truncation;  // square of the highest Legendre coefficient of their rate, as it turns the end, relative
 
-  // Filled by material(), on a Gauss grid of its own: densities of compliance about the element's start, tangents;
-  // Legendre coefficients of g_rate; integral of the densities.
+  // Material compliance of the element about its start, and what stations() needs. Filled by placeArc(), from which it
+  // is exact, or by material(), on a Gauss grid of its own: one row a node.
+  PackedRow compliance;
+  bool is_arc, unloaded;
   int dense_nodes;
-  NodeRow density[kPackedSize], dense_tangent[3];
-  int series_terms;
-  double g_rate_series[kMaxNodes][3];
-  bool unloaded;
-  double compliance[kPackedSize];
+  double dense[kMaxNodes][kDenseRow] __attribute__((aligned(32)));
   double compliance_error;  // estimate of its relative error that the grid adds
   double station_error;     // estimate of the relative error of stations()
+
+  // Material compliance of everything before the element's start and end, about these. Set by accumulate().
+  PackedRow start_compliance, end_compliance;
 };
 
 // Derivatives of a section's state with respect to [base moment, tip force]: rotation phi (rad, R changes by
 // hat(phi) R), position and moment. The first index is the column.
 struct ElementColumns {
   double phi[6][3], p[6][3], m[6][3];
-  // What the columns' own error does, so far along the chain: [i][j] is the work of the moment of column i on the turning
-  // that column j still misses. It corrects the compliance to second order in that error, see StaticsSolver.
+  // What the columns' own error does, so far along the chain: [i][j] is the work of the moment of column i on the
+  // turning that column j still misses. It corrects the compliance to second order in that error, see StaticsSolver.
   double defect[6][6];
 };
 
@@ -80,8 +95,6 @@ constexpr int kStationBatch = 4;
 struct StationBatch {
   int size;                                                    // sections wanted
   double fraction[kStationBatch] __attribute__((aligned(32)));  // of the element's length, 0 to 1; all must be set
-  double p_start[3];                     // of the element's first section in B, m
-  double start_compliance[kPackedSize];  // of everything before the element, about its start
   // Where the results go, column-major; all must be set, unused ones to a place that may be written to.
   double* pose[kStationBatch];        // 12: orientation in B and position, m
   double* compliance[kStationBatch];  // 36: of everything before the section, about it

@@ -8,16 +8,11 @@
 
 namespace live_stiffness {
 
+// The numbers of an element, and what reads and writes them as vectors.
 struct RodElement {
   RodElement() : state() {}
 
-  int segment = 0;     // index of the segment it is part of
-  double start = 0.0;  // arc length of its start from the segment's base, stretched, m
-  Vector3 p_start = Vector3::Zero();  // of its first section in B, m
   ElementState state;
-  // Material compliance of everything before the element's start and end, about these, packed. Set by
-  // accumulateMaterial().
-  double start_compliance[kPackedSize] = {}, end_compliance[kPackedSize] = {};
 
   // Start values: pose of the first section in B; external force and moment there, N and N m, base axes.
   void setStart(const Pose& X, const Vector3& n, const Vector3& m);
@@ -25,32 +20,28 @@ struct RodElement {
   // Dead load w per stretched length, base axes, and load f that follows the section, body axes; N/m.
   void setLoads(const Vector3& line_load, const Vector3& follower_load = Vector3::Zero());
 
+  Vector3 p_start() const { return Vector3(state.p_start); }
   Pose X_start() const;
   Pose X_end() const;
   Vector3 n_end() const { return Vector3(state.n_end); }
   Vector3 m_end() const { return Vector3(state.m_end); }
   Pose X(int node) const;  // in B
+  Vector3 g_end(int stages) const;   // Cayley vector between its ends
   double bending(int stages) const;  // about the angle between its ends, rad
 };
+// So that a vector of them is an array of states.
+static_assert(sizeof(RodElement) == sizeof(ElementState), "RodElement holds nothing but its state");
 
-// Starts the passes from the unloaded shape under a constant moment.
-void resetGuess(RodElement& element);
+// Integrates the element from its start values by fixed-point passes, from the guess that it holds or anew. Order 2
+// stages. Returns false if the passes do not converge: the element is too long for its load or curvature.
+bool integrate(const ElementPasses& passes, bool anew, RodElement& element);
 
-// Largest size (norm of all Cayley vectors) at which an element is still trusted: about 2.4 rad between its ends.
-double largestSize(int stages);
-
-// Integrates the element from its start values by fixed-point passes from the guess that it holds. Order 2 stages.
-// Returns false if the passes do not converge: the element is too long for its load or curvature.
-bool integrate(const ElementPasses& passes, RodElement& element);
-
-// Starts the passes over the columns from those at the start.
-void resetColumns(const ElementColumns& start, ElementState& state);
-
-// Carries columns from the start to the end of an integrated element, by passes from the guess it holds until they
-// change by less than `goal`, relative:
+// Carries columns from the start to the end of an integrated element, by passes until they change by less than `goal`,
+// relative, from the guess that it holds or anew:
 //   phi' = R c_bt R^T (dm - phi x m),  dp' = phi x p' + R c_se R^T (dn - phi x n),  dm' = -dp' x n - p' x dn,
-// dn the unit force of columns 3 to 5. Dead loads only. Returns the last change, or infinity without convergence.
-double propagate(const ElementPasses& passes, RodElement& element, const ElementColumns& start, double goal,
+// dn the unit force of columns 3 to 5. Dead loads only. Returns what is estimated to be left, relative; infinity
+// without convergence.
+double propagate(const ElementPasses& passes, bool anew, RodElement& element, const ElementColumns& start, double goal,
                  ElementColumns& end);
 
 // One part (phi, p or m) of columns as a 3x6 matrix.

@@ -12,15 +12,21 @@ struct Sweep {
   bool sound = false;   // finite, and no element bent too far
 };
 
-// Gives the elements (as many as element_count says) their lengths, sections and loads, and lets the guess that they
-// hold follow the change of rest curvature; once before sweeps.
-void prepare(const Chain& chain, const DeadLoads& loads, Backbone& backbone);
+// Chain, loads and elements as plain data; the backbone's elements are what it refers to.
+ChainState stateOf(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, Backbone& backbone);
 
-enum class Pass {
-  kOnce,    // one fixed-point pass an element
-  kFinish,  // the same, and the shape and X_BT
-  kAnew,    // every element integrated without a guess
+// Whether a solve may go on from the last change of its solution.
+enum class History {
+  kNone,     // there are not two solutions of these elements yet
+  kShape,
+  kColumns,  // both
 };
+
+// Gives the elements (as many as element_count says) their lengths, sections and loads, and lets the guess that they
+// hold follow the change of rest curvature; once before sweeps. Returns how far that change goes on as the last one did
+// (1: the same; -1: back again; 0 if it does not, or without history), by which shape and columns have been
+// extrapolated.
+double prepare(const Chain& chain, const DeadLoads& loads, Backbone& backbone, History history = History::kNone);
 
 // One sweep over all elements, from base to tip, under a base moment.
 Sweep sweep(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, Pass pass, Backbone& backbone);
@@ -30,10 +36,11 @@ Sweep sweep(const Chain& chain, const DeadLoads& loads, const Vector3& base_mome
 bool shoot(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, bool nodes_hold_guess,
            Backbone& backbone, Vector3& residual);
 
-// Derivatives of the state at T with respect to [base moment, tip force] (columns), after a finished sweep; their m is
-// that of the residual. Elements keep their columns as guess unless `fresh`. Returns the largest relative change of the last
-// pass over an element, infinity if one did not converge to `goal`.
-double tipColumns(const Chain& chain, const DeadLoads& loads, bool fresh, double goal, Backbone& backbone,
-                  ElementColumns& columns);
+// Derivatives of the state at T with respect to [base moment, tip force] (columns), for the shape of the last sweep but
+// Pass::kOnce; their m is that of the residual. The elements' own columns are the guess unless `anew`. Returns what is
+// estimated to be left of their error in any element, relative; infinity if one did not converge to `goal`. With their
+// defect (see ElementColumns) they are of order `goal` squared where it is taken out, and cheaper.
+double tipColumns(const Chain& chain, const DeadLoads& loads, bool anew, double goal, Backbone& backbone,
+                  ElementColumns& columns, bool with_defect = false);
 
 }  // namespace live_stiffness

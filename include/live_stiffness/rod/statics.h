@@ -17,7 +17,8 @@ struct StaticsReport {
   bool buckled = false;        // the branch that starts at zero load was seen to lose its stability before the full
                                // loads; the result is on the stable one that it gives way to
   double stable_share = 1.0;   // of the loads, up to which that branch was seen to be stable
-  int iterations = 0;          // sweeps and converged shots, all attempts together; at most 2 kMaxIterations
+  int iterations = 0;          // sweeps, and shots or series of sweeps of a search along the loads, all attempts
+                               // together; at most 2 kMaxIterations
   double residual = 0.0;       // of the tip moment, as bending of the softest segment over its length, rad
   double truncation = 0.0;     // estimated relative error of discretisation
   double iteration = 0.0;      // estimated relative error of shape and columns, left by their last passes
@@ -34,16 +35,18 @@ class StaticsSolver {
 
   // Solves from backbone.rest. Starts from the last solution unless reset() was called, else from the unloaded shape:
   // quick sweeps, which mend shape and base moment together; if they do not converge, damped Newton steps on converged
-  // shots. When that finds no stable equilibrium, or starts cold under loads that allow several, it is found by a branch
-  // search along the loads from zero. On success backbone holds the shape and the tangent can be read.
+  // shots. When that finds no stable equilibrium, or starts cold under loads that allow several, it is found by a
+  // branch search along the loads from zero. On success backbone holds the shape and the tangent can be read.
   //
   // A warm start stays on the branch of the last solution while that is stable, as the robot does, even where a cold
   // start would find another one: which of several stable shapes a robot is in depends on its past. To tell would take
   // a search along the loads, many times the cost of the solve; reset() gives the cold answer.
   StaticsReport solve(const DeadLoads& loads, Backbone& backbone);
 
-  // Shape without loads, in closed form.
-  void placeUnloaded(Backbone& backbone);
+  // Makes the backbone ready for placeUnloaded() of compliance/material_compliance.h, and forgets the last solution.
+  void prepareUnloaded(Backbone& backbone);
+
+  const Chain& chain() const { return chain_; }
 
   // Compliance of T under a dead wrench at T (base axes), by the derivative of the loaded equilibrium: tangent, 6x6.
   const Matrix6& tangentCompliance() const { return tangent_; }
@@ -54,7 +57,8 @@ class StaticsSolver {
 
  private:
   class Finder;  // for the branch search
-  bool quick(const DeadLoads& loads, bool has_inverse, Backbone& backbone, StaticsReport& report);
+  bool quick(const DeadLoads& loads, bool has_inverse, int max_sweeps, Backbone& backbone, StaticsReport& report);
+  void goOn(const DeadLoads& loads, Backbone& backbone);
   bool findEquilibrium(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
   bool findAlongLoads(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
   void polish(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
@@ -71,12 +75,14 @@ class StaticsSolver {
   Chain chain_;
   double length_, accuracy_;
   Discretisation discretisation_;
-  Vector3 base_moment_ = Vector3::Zero();
+  Vector3 base_moment_ = Vector3::Zero(), moment_before_ = Vector3::Zero();  // of this solution and the last
   Matrix3 residual_inverse_ = Matrix3::Zero();  // of d residual / d base moment
   Matrix6 tangent_ = Matrix6::Zero();
   double softness_ = 0.0;      // L c_bt of the softest segment, rad / (N m)
   double stiffest_ = 0.0;      // rotation of the tip by a unit moment about its stiffest axis, unloaded, rad / (N m)
   double amplification_ = 1.0; // see StaticsReport, of the last solve
+  long solutions_ = 0;         // so far, one after the other on the same elements
+  double rate_;                // at which the last sweeps converged
   bool warm_ = false;          // base moment and inverse are those of a solution
   bool has_columns_ = false;   // the elements hold columns of a shape nearby
   bool nodes_hold_guess_ = false;

@@ -1,28 +1,41 @@
 #pragma once
-// Pictures of an estimate for rviz.
-
-#include <visualization_msgs/MarkerArray.h>
+// Pictures of an estimate for rviz. Every call of one function returns the same namespaces and ids, so that each
+// replaces its predecessor.
 
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "live_stiffness/estimation/stiffness_estimator.h"
+#include "live_stiffness/ros/marker_shapes.h"
 
 namespace live_stiffness {
 
-struct MarkerStyle {
-  std::string frame;             // base frame
-  double ellipsoid_scale = 0.3;  // half axis drawn per compliance, m per (m/N)
-  double tube_radius = 0.0015;   // of the backbone, m
-};
-
 // Markers, by namespace: `backbone` (tube, blue to red with the local compliance), `ellipsoids` (translational
-// compliance at the stations), `tip_ellipsoid` (tangent, at T), `tip` (predicted and, if given, measured tip, and the
-// line between), `text` (eigenvalues). Shapes are grey when stale. Every call returns the same ids, so that each
-// replaces its predecessor. samples: the shape, base to tip; not empty.
+// compliance at the stations, a colour per segment), `tip_ellipsoid` (tangent, at T), `tip` (predicted and, if given,
+// measured tip, and the line between), `text` (eigenvalues). Shapes are grey when stale. samples: the shape, base to
+// tip; not empty.
 visualization_msgs::MarkerArray makeMarkers(const Estimate& estimate, const std::vector<Station>& samples,
                                             const std::optional<Pose>& measured_tip, bool stale,
                                             const MarkerStyle& style, const ros::Time& stamp);
+
+// Namespace `eigenscrews`: the axes of the six eigenscrews (21) of the stiffness as lines in space, `length` (m) long,
+// about the point of each that is nearest to T; red: positive, blue: negative; each with its eigenstiffness and pitch.
+// Removed when stale, or when the stiffness has none.
+visualization_msgs::MarkerArray makeEigenscrewMarkers(const Estimate& estimate, bool stale, double length,
+                                                      const MarkerStyle& style, const ros::Time& stamp);
+
+// The robot as it would be under a wrench.
+struct Ghost {
+  std::vector<Pose> shape;          // sections, base to tip; empty: there is no equilibrium to show
+  Pose X_BT;                        // its tip
+  Vector3 force = Vector3::Zero();  // at T beside what acts already, base axes, N
+  Vector3 text_place = Vector3::Zero();  // m
+  std::string text;
+};
+// Namespaces `ghost` (tube and tip), `ghost_force` (arrow from the tip, force_n_per_m newton a metre of length) and
+// `ghost_text`. nullptr: all removed.
+visualization_msgs::MarkerArray makeGhostMarkers(const Ghost* ghost, double force_n_per_m, const MarkerStyle& style,
+                                                 const ros::Time& stamp);
 
 }  // namespace live_stiffness

@@ -10,6 +10,7 @@
 #include "live_stiffness/estimation/registration.h"
 #include "live_stiffness/estimation/stiffness_estimator.h"
 #include "live_stiffness/ros/conversions.h"
+#include "live_stiffness/ros/tip_handle.h"
 #include "live_stiffness/section/channel_map.h"
 
 namespace live_stiffness {
@@ -33,10 +34,12 @@ struct NodeParameters {
   Registration registration;
   double tip_wrench_timeout = 1.0;  // s; 0: keep the last one for ever
 
-  std::string base_frame;  // B
-  std::string tip_frame;   // T, as predicted
+  FrameNames frames;  // B, and T as predicted
   double ellipsoid_scale = 0.3;  // m of half axis per m/N, that is, the force in N whose displacement is drawn
   double marker_rate = 10.0;     // Hz
+  bool show_eigenscrews = false;
+  double eigenscrew_length = 0.06;  // of each axis drawn, m
+  TipHandleOptions tip_handle;
 };
 
 // Reads and validates all of them. Throws ConfigurationError with every fault. Warns of unknown ones.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "live_stiffness/checks.h"
+#include "live_stiffness/ros/conversions.h"
 
 namespace live_stiffness {
 
@@ -43,6 +44,10 @@ class ParameterReader {
   FaultList& faults_;
   std::set<std::string> asked_;
 };
+
+// Names of ~base_frame (default: base) and of the frame that `body_key` names; a fault unless they are two.
+void readFrames(ParameterReader& read, const std::string& body_key, const std::string& body_default, FrameNames& frames,
+                FaultList& faults);
 
 template <class Value, class Load>
 Value ParameterReader::file(const std::string& key, Load load, bool is_required) {

@@ -4,16 +4,20 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 #include <tf2_ros/static_transform_broadcaster.h>
-#include <tf2_ros/transform_broadcaster.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "live_stiffness/estimation/tip_force.h"
 #include "live_stiffness/ros/markers.h"
 #include "live_stiffness/ros/node_parameters.h"
+#include "live_stiffness/ros/pose_output.h"
 #include "live_stiffness/ros/pressure_input.h"
+#include "live_stiffness/ros/stiffness_services.h"
+#include "live_stiffness/ros/tip_handle.h"
 #include "live_stiffness/ros/tracker_input.h"
+#include "live_stiffness/ros/wrench_input.h"
 
 namespace live_stiffness {
 
@@ -24,15 +28,15 @@ class StiffnessNode {
 
  private:
   void onPressures(const Pressures& pressures, const ros::Time& stamp);
-  void onPressureFault(const std::string& fault);
   void onMeasuredTip(const Pose& measured_X_BT, const ros::Time& stamp);
-  void onTipWrench(const geometry_msgs::WrenchStamped::ConstPtr& message);
   void onHeartbeat(const ros::TimerEvent&);
   void onMarkers(const ros::TimerEvent&);
 
-  void expireTipWrench();
+  NewestEstimate newest() const { return {estimator_.estimate(), estimate_stamp_, isStale()}; }
   void react(StiffnessEstimator::Outcome outcome);
-  bool isStale() const { return !newest_fault_.empty() || pressure_input_.isStale(); }
+  // Why the estimate is not that of the newest pressures; empty: it is.
+  std::string newestFault() const { return input_fault_.empty() ? estimator_.statusText() : input_fault_; }
+  bool isStale() const { return !newestFault().empty() || pressure_input_.isStale(); }
   void publishEstimate();
   void diagnoseSolver(diagnostic_updater::DiagnosticStatusWrapper& status);
   void diagnoseTracker(diagnostic_updater::DiagnosticStatusWrapper& status);
@@ -40,24 +44,24 @@ class StiffnessNode {
   ros::NodeHandle node_, private_node_;
   NodeParameters parameters_;
   StiffnessEstimator estimator_;
+  PoseOutput pose_output_;
   MarkerStyle marker_style_;
-  ros::Publisher estimate_publisher_, tip_pose_publisher_, backbone_publisher_, marker_publisher_, error_publisher_,
+  ros::Publisher estimate_publisher_, backbone_publisher_, marker_publisher_, error_publisher_,
       wrench_publisher_;
-  tf2_ros::TransformBroadcaster tf_broadcaster_;
   tf2_ros::StaticTransformBroadcaster static_tf_broadcaster_;
   diagnostic_updater::Updater diagnostics_;
 
   ros::Time pressure_stamp_;  // of the newest usable pressures
   ros::Time estimate_stamp_;  // of the pressures of the last good estimate
-  ros::Time tf_stamp_;        // of the last transform sent; tf refuses the same stamp twice
-  std::string newest_fault_;  // why the estimate is not that of the newest pressures; empty: it is
+  std::string input_fault_;   // why the newest pressures cannot even be read; empty: they can
   double tracking_error_ = 0.0;  // newest distance, m
 
   // Last, so that no callback runs before the rest exists.
-  InputWatch wrench_watch_;
+  WrenchInput wrench_input_;
   PressureInput pressure_input_;
   TrackerInput tracker_input_;
-  ros::Subscriber wrench_subscriber_;
+  StiffnessServices services_;
+  std::unique_ptr<TipHandle> tip_handle_;  // none unless enabled
   std::vector<ros::Timer> timers_;
   ros::WallTimer diagnostics_timer_;  // wall time: a paused or missing clock is just what it must report
 };

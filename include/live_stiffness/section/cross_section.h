@@ -4,6 +4,8 @@
 // T is double, or a type that carries derivatives.
 
 #include <Eigen/LU>
+#include <cmath>
+#include <type_traits>
 
 #include "live_stiffness/conventions.h"
 #include "live_stiffness/section/chambers.h"
@@ -94,6 +96,7 @@ class SectionMomentsOf {
         material_(section.material) {
     for (int k = 0; k < section.chambers.count(); ++k)
       chamber_spread_ += armSpread(section.chambers.centre(k, T(1.0)), section.chambers.area());
+    if constexpr (std::is_same_v<T, double>) hideRounding();
   }
 
   T area(const T& stretch) const { return tube_area_ / stretch - chamber_area_; }  // m^2
@@ -117,9 +120,23 @@ class SectionMomentsOf {
     return modulus * secondMoments(stretch) + pressurised.bending * T(1.0 / stretch);
   }
 
+  // lam A(lam) and lam^2 I(lam), without a division.
+  struct Scaled {
+    T stretch, area, xx, xy, yy;
+
+    T determinant() const { return xx * yy - xy * xy; }
+    // A(lam) and I(lam) are positive. False for NaN.
+    bool isValid() const { return stretch > 0.0 && area > 0.0 && xx + yy > 0.0 && determinant() > 0.0; }
+  };
+  Scaled scaled(const T& stretch) const {
+    const T moment = tube_moment_ - chamber_moment_ * stretch * stretch;
+    return {stretch, tube_area_ - chamber_area_ * stretch, moment - stretch * chamber_spread_(0, 0),
+            -stretch * chamber_spread_(0, 1), moment - stretch * chamber_spread_(1, 1)};
+  }
+
   // True if A(lam) and I(lam) and the stiffnesses are positive, that is, if c(lam) exists. False for NaN.
   bool isValidAt(const T& stretch, const ChamberStiffness& pressurised = {}) const {
-    if (!(stretch > 0.0) || !(area(stretch) > 0.0) || !isPositive(secondMoments(stretch))) return false;
+    if (!scaled(stretch).isValid()) return false;
     if (isPlain()) return true;
     return tangentRatio(material_, stretch) > 0.0 && axialStiffness(stretch, pressurised) > 0.0 &&
            isPositive(bendingStiffness(stretch, pressurised));
@@ -128,6 +145,7 @@ class SectionMomentsOf {
   // c(lam). Requires isValidAt(stretch). Shear and torsion follow the stretch law with the same ratio; pressure does
   // not stiffen them.
   ComplianceDensityOf<T> complianceDensity(const T& stretch, const ChamberStiffness& pressurised = {}) const {
+    if (isPlain()) return plainDensity(scaled(stretch));
     const T ratio = tangentRatio(material_, stretch);
     const T GA = shear_stiffness_modulus_ * ratio * area(stretch);
     ComplianceDensityOf<T> c;
@@ -155,6 +173,25 @@ class SectionMomentsOf {
   const T& chamberArea() const { return chamber_area_; }  // of all chambers, at any stretch
 
  private:
+  // Symmetric layouts bend the same in all directions; rounding would hide that from what is quicker then.
+  void hideRounding() {
+    const double mean = 0.5 * chamber_spread_.trace(), rounding = 1e-14 * mean;
+    if (std::abs(chamber_spread_(0, 0) - mean) <= rounding && std::abs(chamber_spread_(0, 1)) <= rounding)
+      chamber_spread_ = mean * Eigen::Matrix2d::Identity();
+  }
+  // c where E_t = E.
+  ComplianceDensityOf<T> plainDensity(const Scaled& at) const {
+    const T by_area = at.stretch / (at.area * youngs_modulus_);  // 1 / (E A)
+    const T square = at.stretch * at.stretch, by_moment = square / (at.determinant() * youngs_modulus_);
+    ComplianceDensityOf<T> c;
+    c.shear_elongation(0, 0) = c.shear_elongation(1, 1) = by_area * (youngs_modulus_ / shear_stiffness_modulus_);
+    c.shear_elongation(2, 2) = by_area;
+    c.bending_torsion(0, 0) = by_moment * at.yy;
+    c.bending_torsion(1, 1) = by_moment * at.xx;
+    c.bending_torsion(0, 1) = c.bending_torsion(1, 0) = -by_moment * at.xy;
+    c.bending_torsion(2, 2) = square / (shear_modulus_ * (at.xx + at.yy));
+    return c;
+  }
   static T power4(const T& x) { return x * x * x * x; }
   static bool isPositive(const Matrix2Of<T>& m) {
     return m(0, 0) + m(1, 1) > 0.0 && m(0, 0) * m(1, 1) - m(0, 1) * m(1, 0) > 0.0;

@@ -1,0 +1,17 @@
+#pragma once
+// Whether an equilibrium under dead loads is stable, as far as its tip and its loads tell; conjugate_points.h looks inside.
+
+#include "live_stiffness/rod/backbone.h"
+
+namespace live_stiffness {
+
+// An upper bound of the ratio of load and buckling load of the straight robot: below 1 there is one equilibrium only. By
+// the trace of int |n| int c ds dl (exact for a soft hinge, 0.81 for a uniform column under a tip load). A tip moment
+// alone winds the rod up by half a turn before it has a choice. NaN for loads that are not numbers.
+double loadNumber(const Chain& chain, const DeadLoads& loads, const Backbone& backbone);
+
+// The tangent compliance C of the tip is positive definite, and clearly so: not neutral. softness: rotation of the softest
+// segment by a unit moment, rad/(N m); error: relative, of C apart from its growth towards buckling.
+bool isTipStable(const Matrix6& C, double softness, double error);
+
+}  // namespace live_stiffness

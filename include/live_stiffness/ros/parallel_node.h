@@ -1,0 +1,52 @@
+#pragma once
+// The node of a parallel robot: rod lengths in; pose and compliance of the platform, tf, markers and diagnostics out.
+// No mathematics and no message fields here.
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/ros.h>
+
+#include <string>
+#include <vector>
+
+#include "live_stiffness/ros/array_input.h"
+#include "live_stiffness/ros/parallel_parameters.h"
+#include "live_stiffness/ros/pose_output.h"
+#include "live_stiffness/ros/wrench_input.h"
+
+namespace live_stiffness {
+
+class ParallelNode {
+ public:
+  // Subscribes and advertises. Throws ConfigurationError with every fault of the parameters.
+  ParallelNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
+
+ private:
+  void onLengths(const Eigen::VectorXd& lengths, const ros::Time& stamp);
+  void onWrench(const Wrench& wrench);
+  void react();
+  // Why the estimate is not that of the newest lengths; empty: it is.
+  std::string newestFault() const { return input_fault_.empty() ? estimator_.statusText() : input_fault_; }
+  bool isStale() const { return !newestFault().empty() || length_input_.isStale(); }
+  void publishEstimate();
+  void onHeartbeat(const ros::TimerEvent&);
+  void onMarkers(const ros::TimerEvent&);
+  void diagnoseSolver(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  ros::NodeHandle node_, private_node_;
+  ParallelParameters parameters_;
+  ParallelEstimator estimator_;
+  PoseOutput pose_output_;
+  ros::Publisher estimate_publisher_, marker_publisher_;
+  diagnostic_updater::Updater diagnostics_;
+  ros::Time length_stamp_;    // of the newest usable lengths
+  ros::Time estimate_stamp_;  // of the lengths of the last good estimate
+  std::string input_fault_;   // why the newest lengths cannot even be read; empty: they can
+
+  // Last, so that no callback runs before the rest exists.
+  ArrayInput length_input_;
+  WrenchInput wrench_input_;
+  std::vector<ros::Timer> timers_;
+  ros::WallTimer diagnostics_timer_;  // wall time: a paused or missing clock is just what it must report
+};
+
+}  // namespace live_stiffness

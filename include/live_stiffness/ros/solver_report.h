@@ -1,0 +1,30 @@
+#pragma once
+// Health of the solver of either kind of robot, for diagnostics.
+
+#include <diagnostic_updater/diagnostic_updater.h>
+
+#include <string>
+
+namespace live_stiffness {
+
+// estimator: StiffnessEstimator or ParallelEstimator. wrench_fault: what is wrong with the known wrench; empty:
+// nothing.
+template <class Estimator>
+void reportSolver(const Estimator& estimator, const std::string& wrench_fault,
+                  diagnostic_updater::DiagnosticStatusWrapper& status) {
+  using diagnostic_msgs::DiagnosticStatus;
+  if (!estimator.status().ok())
+    status.summary(DiagnosticStatus::ERROR, estimator.statusText());
+  else if (estimator.estimate() == nullptr)
+    status.summary(DiagnosticStatus::WARN, "nothing solved yet");
+  else if (!wrench_fault.empty())
+    status.summary(DiagnosticStatus::WARN, wrench_fault);
+  else
+    status.summary(DiagnosticStatus::OK, "ok");
+  if (estimator.estimate() == nullptr) return;
+  status.add("solve time (us)", 1e6 * estimator.estimate()->solve_time);
+  status.add("iterations", estimator.estimate()->solution.iterations);
+  status.add("numerical error", estimator.estimate()->solution.numerical_error);
+}
+
+}  // namespace live_stiffness

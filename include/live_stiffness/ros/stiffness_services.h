@@ -1,0 +1,37 @@
+#pragma once
+// The questions that stiffness_node answers: ~predict_deflection, ~compliance_at, ~directional_stiffness. Each is
+// answered for the newest estimate, in a workspace of its own, so that the live solver stays as it is.
+
+#include <live_stiffness/ComplianceAt.h>
+#include <live_stiffness/DirectionalStiffness.h>
+#include <live_stiffness/PredictDeflection.h>
+#include <ros/node_handle.h>
+
+#include <string>
+#include <vector>
+
+#include "live_stiffness/ros/conversions.h"
+#include "live_stiffness/ros/newest_estimate.h"
+
+namespace live_stiffness {
+
+class StiffnessServices {
+ public:
+  // Advertises them. model must outlive this.
+  StiffnessServices(ros::NodeHandle private_node, const StiffnessModel& model, FrameNames frames, AskNewest newest);
+  StiffnessServices(const StiffnessServices&) = delete;  // callbacks refer to it
+
+  // The answers; always true, since a question that cannot be answered has success = false.
+  bool predictDeflection(PredictDeflection::Request& request, PredictDeflection::Response& response);
+  bool complianceAt(ComplianceAt::Request& request, ComplianceAt::Response& response);
+  bool directionalStiffness(DirectionalStiffness::Request& request, DirectionalStiffness::Response& response);
+
+ private:
+  const StiffnessModel& model_;
+  FrameNames frames_;
+  AskNewest newest_;
+  StiffnessWorkspace workspace_;
+  std::vector<ros::ServiceServer> servers_;
+};
+
+}  // namespace live_stiffness

@@ -1,0 +1,19 @@
+// parallel_node: see config/parallel_node.yaml for its parameters.
+
+#include <ros/ros.h>
+
+#include "live_stiffness/ros/parallel_node.h"
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "parallel_node");
+  // Outlive the try block: with the last handle roscpp shuts down, and its log with it.
+  ros::NodeHandle handle, private_handle("~");
+  try {
+    live_stiffness::ParallelNode node(handle, private_handle);
+    ros::spin();
+  } catch (const std::exception& error) {
+    ROS_FATAL("%s", error.what());
+    return 2;
+  }
+  return 0;
+}

@@ -1,0 +1,86 @@
+// parallel_rig: a node that moves a parallel robot. Publishes the rod lengths that lead its platform round a circle.
+
+#include <live_stiffness/RodLengths.h>
+#include <ros/ros.h>
+
+#include <cmath>
+
+#include "live_stiffness/parallel/parallel_scene_file.h"
+#include "live_stiffness/ros/parameter_reader.h"
+
+namespace {
+
+using namespace live_stiffness;
+
+struct Motion {
+  double radius = 0.1;   // m
+  double height = 0.4;   // m
+  double period = 20.0;  // s, of a round; 0: the platform stands still on the circle, at x = radius
+  double rate = 20.0;    // lengths per second
+
+  Pose at(double time) const {
+    const double angle = period > 0.0 ? 2.0 * kPi * time / period : 0.0;
+    return {Matrix3::Identity(), Vector3(radius * std::cos(angle), radius * std::sin(angle), height)};
+  }
+};
+
+class ParallelRig {
+ public:
+  ParallelRig(ros::NodeHandle node, const ros::NodeHandle& private_node)
+      : model_(load(private_node, motion_), ParallelOptions()),
+        workspace_(model_.makeWorkspace()),
+        lengths_(node.advertise<RodLengths>("rod_lengths", 10)),
+        timer_(node.createTimer(ros::Duration(1.0 / motion_.rate), &ParallelRig::onTimer, this)) {}
+
+ private:
+  static ParallelScene load(const ros::NodeHandle& private_node, Motion& motion) {
+    FaultList faults("parameters of " + private_node.getNamespace());
+    ParameterReader read(private_node, faults);
+    ParallelScene scene = read.file<ParallelScene>("scene_file", loadParallelSceneFile, true);
+    motion.radius = read.number("radius_m", motion.radius, Range::nonnegative());
+    motion.height = read.number("height_m", motion.height, Range::positive());
+    motion.period = read.number("period_s", motion.period, Range::nonnegative());
+    motion.rate = read.number("rate_hz", motion.rate, {1.0, 1000.0});
+    for (const std::string& key : read.unknown()) ROS_WARN("parameter ~%s is not known to parallel_rig", key.c_str());
+    faults.throwIfAny();
+    return scene;
+  }
+
+  void onTimer(const ros::TimerEvent&) {
+    const ros::Time now = ros::Time::now();
+    if (start_.isZero() || now < start_) start_ = now;
+    const ParallelSolution solution =
+        model_.solveForLengths(motion_.at((now - start_).toSec()), Wrench::Zero(), workspace_);
+    if (!solution.status.ok()) {
+      ROS_ERROR_THROTTLE(1.0, "%s", model_.describe(solution.status).c_str());
+      return;
+    }
+    RodLengths message;
+    message.header.stamp = now;
+    for (const HeldRod& rod : workspace_.rods()) message.length.push_back(rod.length());
+    lengths_.publish(message);
+  }
+
+  Motion motion_;
+  ParallelModel model_;
+  ParallelWorkspace workspace_;
+  ros::Time start_;
+  ros::Publisher lengths_;
+  ros::Timer timer_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "parallel_rig");
+  // Outlive the try block: with the last handle roscpp shuts down, and its log with it.
+  ros::NodeHandle handle, private_handle("~");
+  try {
+    ParallelRig rig(handle, private_handle);
+    ros::spin();
+  } catch (const std::exception& error) {
+    ROS_FATAL("%s", error.what());
+    return 2;
+  }
+  return 0;
+}

@@ -1,0 +1,258 @@
+#pragma once
+// Elements and rigid links one after the other, from base to tip. See docs/derivation.md, section 2 and 5.
+
+#include "rod/element_columns_code.h"
+#include "rod/element_material_code.h"
+#include "rod/element_shape_code.h"
+
+namespace live_stiffness {
+namespace {
+
+LIVE_STIFFNESS_INLINE void copy(const double (&from)[3], double (&to)[3]) {
+  for (int i = 0; i < 3; ++i) to[i] = from[i];
+}
+LIVE_STIFFNESS_INLINE void copy(const double (&from)[9], double (&to)[9]) {
+  for (int i = 0; i < 9; ++i) to[i] = from[i];
+}
+LIVE_STIFFNESS_INLINE void copy(const PackedRow& from, PackedRow& to) {
+  for (int i = 0; i < kPackedRow / kLanes; ++i) store(to, i, load(from, i));
+}
+
+constexpr double kIdentity[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}, kNothing[3] = {};
+
+// Where a walk along a chain has arrived: pose of the section, and loads there (base axes).
+class Place {
+ public:
+  LIVE_STIFFNESS_INLINE Place(const double (&force)[3], const double (&moment)[3]) : n(&force), m(&moment) {}
+
+  LIVE_STIFFNESS_INLINE void enter(ElementState& e) const {
+    copy(*R, e.R_start);
+    copy(p, e.p_start);
+    copy(*n, e.n_start);
+    copy(*m, e.m_start);
+  }
+  LIVE_STIFFNESS_INLINE void leave(const ElementState& e) {
+    R = &e.R_end, n = &e.n_end, m = &e.m_end;
+    for (int i = 0; i < 3; ++i) p[i] = e.p_start[i] + e.offset_end[i];
+  }
+  // Over a rigid piece, axes of the section; weight: of its own, at its middle, N. Returns the piece in base axes and
+  // the force that turns with it.
+  struct Rigid {
+    double along[3], force[3];
+  };
+  LIVE_STIFFNESS_INLINE Rigid cross(const double (&piece)[3], const double (&weight)[3]) {
+    Rigid rigid;
+    double moment[3];
+    rotate(*R, piece, rigid.along);
+    for (int i = 0; i < 3; ++i) rigid.force[i] = (*n)[i] - 0.5 * weight[i];  // the weight has half the lever
+    crossInto(rigid.along, rigid.force[0], rigid.force[1], rigid.force[2], moment);
+    for (int i = 0; i < 3; ++i)
+      p[i] += rigid.along[i], own_n_[i] = (*n)[i] - weight[i], own_m_[i] = (*m)[i] - moment[i];
+    n = &own_n_, m = &own_m_;
+    return rigid;
+  }
+
+  const double (*R)[9] = &kIdentity;
+  double p[3] = {};
+  const double (*n)[3];
+  const double (*m)[3];
+
+ private:
+  double own_n_[3], own_m_[3];
+};
+
+// Derivatives over a rigid piece, base axes; n: the force that turns with it.
+LIVE_STIFFNESS_INLINE void carryColumns(const double (&along)[3], const double (&n)[3], ElementColumns& at) {
+  for (int k = 0; k < 6; ++k) {
+    double moved[3], moment[3];
+    crossInto(at.phi[k], along[0], along[1], along[2], moved);
+    crossInto(n, moved[0], moved[1], moved[2], moment);
+    for (int i = 0; i < 3; ++i) at.p[k][i] += moved[i], at.m[k][i] += moment[i];
+  }
+  at.m[3][1] -= along[2], at.m[3][2] += along[1];
+  at.m[4][2] -= along[0], at.m[4][0] += along[2];
+  at.m[5][0] -= along[1], at.m[5][1] += along[0];
+}
+
+template <int kStages>
+struct ChainPasses {
+  using S = Shape<kStages>;
+  using C = Columns<kStages>;
+  using M = MaterialChoice<kStages>;
+
+  // Calls on_link(link's length, weight) and on_element(element, it is the last body), base to tip.
+  template <class OnLink, class OnElement>
+  static LIVE_STIFFNESS_INLINE void walk(const ChainState& chain, OnLink on_link, OnElement on_element) {
+    ElementState* e = chain.elements;
+    for (int i = 0; i < chain.part_count; ++i) {
+      const ChainPart& part = chain.parts[i];
+      if (part.segment < 0) {
+        const double* g = chain.gravity;
+        on_link({0.0, 0.0, part.length}, {part.mass * g[0], part.mass * g[1], part.mass * g[2]});
+      } else {
+        const bool last_part = i + 1 == chain.part_count;
+        for (int k = chain.element_count[part.segment]; k > 0; --k, ++e) on_element(*e, last_part && k == 1);
+      }
+    }
+  }
+  static LIVE_STIFFNESS_INLINE bool hasOffset(const ChainState& chain) {
+    return chain.tip_offset[0] != 0.0 || chain.tip_offset[1] != 0.0 || chain.tip_offset[2] != 0.0;
+  }
+  static LIVE_STIFFNESS_INLINE int countElements(const ChainState& chain) {
+    int count = 0;
+    for (int i = 0; i < chain.part_count; ++i)
+      if (chain.parts[i].segment >= 0) count += chain.element_count[chain.parts[i].segment];
+    return count;
+  }
+  typedef double Vector[3];
+
+  static void sweep(const ChainState& chain, Pass kind, SweepResult& result) {
+    const bool has_offset = hasOffset(chain);
+    Place at(chain.base_force, chain.base_moment);
+    double change = 0.0;
+    bool sound = true;
+    walk(
+        chain, [&](const Vector& piece, const Vector& weight) { at.cross(piece, weight); },
+        [&](ElementState& e, bool last) {
+          at.enter(e);
+          switch (kind) {
+            case Pass::kFinish: S::pass(e); [[fallthrough]];
+            case Pass::kShape: S::evaluate(e); break;
+            case Pass::kOnce:
+              S::pass(e);
+              if (!last || has_offset) S::endRotation(e);
+              break;
+            case Pass::kUnloaded: S::placeUnloaded(e); break;
+            case Pass::kAnew:
+              S::resetGuess(e);
+              sound = S::integrate(e) && sound;
+          }
+          at.leave(e);
+          change = largerOf(e.change, change);
+          sound = sound && S::isSound(e);
+        });
+    if (has_offset) at.cross(chain.tip_offset, kNothing);
+    if (kind != Pass::kOnce) {
+      copy(*at.R, result.R_tip);
+      copy(at.p, result.p_tip);
+    }
+    double finite = 0.0;
+    for (int i = 0; i < 3; ++i) finite += result.residual[i] = (*at.m)[i] - chain.tip_moment[i];
+    result.change = change;
+    result.sound = sound && __builtin_isfinite(finite);
+  }
+
+  static void followAll(const ChainState& chain, const double (&base_moment_change)[3]) {
+    walk(
+        chain, [](const Vector&, const Vector&) {},
+        [&](ElementState& e, bool) { S::follow(e, base_moment_change); });
+  }
+
+  static double columns(const ChainState& chain, bool anew, double goal, bool with_defect, ElementColumns& tip) {
+    // Before the first element: the base moment itself, and nothing moves.
+    static constexpr ElementColumns kBase = {{}, {}, {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}, {}};
+    const bool has_offset = hasOffset(chain);
+    ElementColumns room[2];
+    const ElementColumns* start = &kBase;
+    // Of the defects no element sees more than its own part.
+    const double part_goal = with_defect ? goal / countElements(chain) : goal;
+    double left = 0.0;
+    Place at(chain.base_force, kNothing);
+    const auto other = [&]() -> ElementColumns& { return start == &room[0] ? room[1] : room[0]; };
+    const auto carry = [&](const Vector& piece, const Vector& weight, ElementColumns& end) {
+      const Place::Rigid rigid = at.cross(piece, weight);
+      end = *start;
+      carryColumns(rigid.along, rigid.force, end);
+      start = &end;
+    };
+    walk(
+        chain, [&](const Vector& piece, const Vector& weight) { carry(piece, weight, other()); },
+        [&](ElementState& e, bool last) {
+          ElementColumns& end = last && !has_offset ? tip : other();
+          const double own = C::propagate(e, anew, *start, part_goal, with_defect, end);
+          left = with_defect ? left + own : largerOf(own, left);
+          start = &end;
+          at.leave(e);
+        });
+    if (has_offset) carry(chain.tip_offset, kNothing, tip);
+    if (start != &tip) tip = *start;
+    return left;
+  }
+
+  static LIVE_STIFFNESS_INLINE void addCompliance(ElementState& e) {
+    for (int i = 0; i < kPackedRow / kLanes; ++i)
+      store(e.end_compliance, i, load(e.start_compliance, i) + load(e.compliance, i));
+    shift(e.offset_end, e.end_compliance);
+  }
+
+  // Material compliance of what a walk has passed, about where it is.
+  class Passed {
+   public:
+    LIVE_STIFFNESS_INLINE void pass(ElementState& e) {
+      if (before_) before_ = moved(e.p_start, e.start_compliance);
+      else copy(kNoCompliance, e.start_compliance);
+      addCompliance(e);
+      before_ = &e.end_compliance;
+      for (int i = 0; i < 3; ++i) about_[i] = e.p_start[i] + e.offset_end[i];
+    }
+    // About p.
+    LIVE_STIFFNESS_INLINE void finish(const double (&p)[3], PackedRow& out) const {
+      if (before_) moved(p, out);
+      else copy(kNoCompliance, out);
+    }
+
+   private:
+    static constexpr PackedRow kNoCompliance = {};
+    LIVE_STIFFNESS_INLINE const PackedRow* moved(const double (&p)[3], PackedRow& to) const {
+      const double d[3] = {p[0] - about_[0], p[1] - about_[1], p[2] - about_[2]};
+      copy(*before_, to);
+      if (d[0] != 0.0 || d[1] != 0.0 || d[2] != 0.0) shift(d, to);
+      return &to;
+    }
+
+    const PackedRow* before_ = nullptr;
+    double about_[3] = {};
+  };
+
+  static double accumulate(const ChainState& chain, double accuracy, const double (&p_tip)[3], PackedRow& compliance) {
+    Passed passed;
+    double error = 0.0;
+    walk(
+        chain, [](const Vector&, const Vector&) {},
+        [&](ElementState& e, bool) {
+          M::material(e, false, accuracy);
+          passed.pass(e);
+          error += e.compliance_error;
+        });
+    passed.finish(p_tip, compliance);
+    return error;
+  }
+
+  static double placeChain(const ChainState& chain, double accuracy, SweepResult& result, PackedRow& compliance) {
+    Place at(kNothing, kNothing);
+    Passed passed;
+    double error = 0.0;
+    walk(
+        chain, [&](const Vector& piece, const Vector&) { at.cross(piece, kNothing); },
+        [&](ElementState& e, bool) {
+          at.enter(e);
+          if (bendsAsArc(e)) {
+            placeArc(e);
+          } else {
+            S::placeUnloaded(e);
+            M::material(e, true, accuracy);
+          }
+          passed.pass(e);
+          error += e.compliance_error;
+          at.leave(e);
+        });
+    if (hasOffset(chain)) at.cross(chain.tip_offset, kNothing);
+    copy(*at.R, result.R_tip);
+    copy(at.p, result.p_tip);
+    passed.finish(at.p, compliance);
+    return error;
+  }
+};
+
+}  // namespace
+}  // namespace live_stiffness

@@ -1,0 +1,60 @@
+#pragma once
+// Symmetric 6x6 compliances in 21 numbers (see kPackedSize), of one section or one a lane.
+
+#include "rod/lanes.h"
+
+namespace live_stiffness {
+namespace {
+
+// Cross product of numbers or of lanes.
+template <class T>
+LIVE_STIFFNESS_INLINE void crossInto(const T (&d)[3], T x, T y, T z, T (&out)[3]) {
+  out[0] = d[1] * z - d[2] * y;
+  out[1] = d[2] * x - d[0] * z;
+  out[2] = d[0] * y - d[1] * x;
+}
+
+// About the point o becomes about o + d: H C H^T with H = [I, -hat(d); 0, I], so that K -> K - hat(d) W and
+// P -> P - hat(d) K^T + K_new hat(d).
+template <class T>
+LIVE_STIFFNESS_INLINE void shift(const T (&d)[3], T* at) {
+  T *P = at, *K = at + 6;
+  const T* W = at + 15;
+  T a[3][3], w[3][3], b[3][3];
+  for (int j = 0; j < 3; ++j) crossInto(d, K[3 * j], K[3 * j + 1], K[3 * j + 2], a[j]);
+  crossInto(d, W[0], W[1], W[2], w[0]);
+  crossInto(d, W[1], W[3], W[4], w[1]);
+  crossInto(d, W[2], W[4], W[5], w[2]);
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 3; ++i) K[3 * i + j] = K[3 * i + j] - w[j][i];
+  for (int i = 0; i < 3; ++i) crossInto(d, K[3 * i], K[3 * i + 1], K[3 * i + 2], b[i]);
+  P[0] = P[0] - (a[0][0] + b[0][0]);
+  P[1] = P[1] - (a[1][0] + b[0][1]);
+  P[2] = P[2] - (a[2][0] + b[0][2]);
+  P[3] = P[3] - (a[1][1] + b[1][1]);
+  P[4] = P[4] - (a[2][1] + b[1][2]);
+  P[5] = P[5] - (a[2][2] + b[2][2]);
+}
+
+// A batch of sections of an element goes out, one a lane. r: from the element's start, m; own: compliance from there to
+// the section, about the start.
+LIVE_STIFFNESS_INLINE void storeSections(const ElementState& e, const StationBatch& s, int v, const LanesMatrix& R,
+                                         const Lanes (&r)[3], const Lanes* own) {
+  Lanes at[kPackedSize];
+  for (int i = 0; i < kPackedSize; ++i) at[i] = e.start_compliance[i] + own[i];
+  shift(r, at);
+  const Lanes pose[12] = {R.x.x, R.x.y, R.x.z, R.y.x, R.y.y, R.y.z, R.z.x, R.z.y, R.z.z, e.p_start[0] + r[0],
+                          e.p_start[1] + r[1], e.p_start[2] + r[2]};
+  const Lanes *P = at, *K = at + 6, *W = at + 15;
+  const Lanes compliance[36] = {P[0], P[1], P[2], K[0], K[1], K[2],  //
+                                P[1], P[3], P[4], K[3], K[4], K[5],  //
+                                P[2], P[4], P[5], K[6], K[7], K[8],  //
+                                K[0], K[3], K[6], W[0], W[1], W[2],  //
+                                K[1], K[4], K[7], W[1], W[3], W[4],  //
+                                K[2], K[5], K[8], W[2], W[4], W[5]};
+  storeAcross(pose, s.pose + kLanes * v);
+  storeAcross(compliance, s.compliance + kLanes * v);
+}
+
+}  // namespace
+}  // namespace live_stiffness

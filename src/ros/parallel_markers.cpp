@@ -1,0 +1,79 @@
+#include "live_stiffness/ros/parallel_markers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "live_stiffness/ros/conversions.h"
+
+namespace live_stiffness {
+namespace {
+
+using visualization_msgs::Marker;
+using visualization_msgs::MarkerArray;
+
+// A plate through points in their order around their mean.
+void setPlate(Marker& marker, std::vector<Vector3> corners, const std_msgs::ColorRGBA& shade) {
+  marker.color = shade;
+  Vector3 centre = Vector3::Zero();
+  for (const Vector3& corner : corners) centre += corner / corners.size();
+  // Around the mean, in the plane of the first corner and the one farthest from the line through it.
+  const Vector3 x = (corners.front() - centre).normalized();
+  Vector3 y = Vector3::Zero();
+  for (const Vector3& corner : corners) {
+    const Vector3 across = (corner - centre) - x.dot(corner - centre) * x;
+    if (across.norm() > y.norm()) y = across;
+  }
+  std::sort(corners.begin(), corners.end(), [&](const Vector3& a, const Vector3& b) {
+    return std::atan2(y.dot(a - centre), y.norm() * x.dot(a - centre)) <
+           std::atan2(y.dot(b - centre), y.norm() * x.dot(b - centre));
+  });
+  for (size_t i = 0; i < corners.size(); ++i)
+    for (const Vector3& corner : {centre, corners[i], corners[(i + 1) % corners.size()]})
+      marker.points.push_back(toPoint(corner));
+  marker.colors.assign(marker.points.size(), shade);  // a colour of its own for each point is drawn without light
+}
+
+std::string eigenvalueText(const ParallelEstimate& estimate, bool stale) {
+  const Vector3 &c = estimate.ellipsoids.translation.half_axes, &r = estimate.ellipsoids.rotation.half_axes;
+  char text[200];
+  std::snprintf(text, sizeof text, "%.3g / %.3g / %.3g mm/N\n%.3g / %.3g / %.3g deg/(N m)%s", 1e3 * c[0], 1e3 * c[1],
+                1e3 * c[2], degrees(r[0]), degrees(r[1]), degrees(r[2]), stale ? " STALE" : "");
+  return text;
+}
+
+}  // namespace
+
+MarkerArray makeParallelMarkers(const ParallelEstimate& estimate, const ParallelScene& scene, bool stale,
+                                const ParallelMarkerStyle& style, const ros::Time& stamp) {
+  MarkerArray markers;
+  markers.markers.reserve(estimate.rods.size() + 5);
+  const auto add = [&](const std::string& name, int id, int type) -> Marker& {
+    markers.markers.push_back(newMarker(style.frame, stamp, name, id, type));
+    return markers.markers.back();
+  };
+  const Pose& X_BP = estimate.solution.X_BP;
+  std::vector<Vector3> holes, ends;
+  for (size_t i = 0; i < estimate.rods.size(); ++i) {
+    holes.push_back(scene.rods[i].X_BR.p);
+    ends.push_back(X_BP * scene.rods[i].X_PE.p);
+    const double share = i / std::max(1.0, estimate.rods.size() - 1.0);
+    setTube(add("rods", static_cast<int>(i), Marker::TRIANGLE_LIST), estimate.rods[i],
+            std::max(style.tube_radius, scene.rods[i].section.outer_radius), {blueToRed(share, stale)});
+  }
+  setPlate(add("base", 0, Marker::TRIANGLE_LIST), holes, color(0.45, 0.45, 0.5, 1.0));
+  setPlate(add("platform", 0, Marker::TRIANGLE_LIST), ends,
+           stale ? color(0.6, 0.6, 0.6, 0.8) : color(0.3, 0.75, 0.55, 0.8));
+  Marker& translation = add("translation_ellipsoid", 0, Marker::SPHERE);
+  setEllipsoid(translation, estimate.ellipsoids.translation, X_BP.p, style.ellipsoid_scale);
+  translation.color = stale ? color(0.5, 0.5, 0.5, 0.5) : color(1.0, 0.6, 0.15, 0.75);
+  Marker& rotation = add("rotation_ellipsoid", 0, Marker::SPHERE);
+  setEllipsoid(rotation, estimate.ellipsoids.rotation, X_BP.p, style.rotation_scale);
+  rotation.color = stale ? color(0.6, 0.6, 0.6, 0.35) : color(0.35, 0.65, 1.0, 0.5);
+  Marker& text = add("text", 0, Marker::TEXT_VIEW_FACING);
+  setText(text, X_BP.p + Vector3(0.0, 0.0, 0.09), 0.02, eigenvalueText(estimate, stale));
+  if (stale) text.color = color(1.0, 0.3, 0.2, 1.0);
+  return markers;
+}
+
+}  // namespace live_stiffness

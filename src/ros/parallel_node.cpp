@@ -1,0 +1,82 @@
+#include "live_stiffness/ros/parallel_node.h"
+
+#include "live_stiffness/ros/parallel_markers.h"
+#include "live_stiffness/ros/solver_report.h"
+
+namespace live_stiffness {
+
+ParallelNode::ParallelNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
+    : node_(node),
+      private_node_(private_node),
+      parameters_(loadParallelParameters(private_node)),
+      estimator_(parameters_.scene, parameters_.model),
+      pose_output_(private_node, "platform_pose", parameters_.frames),
+      diagnostics_(node, private_node),
+      length_input_(
+          node,
+          {"rod_lengths", "rod lengths", "rod lengths", "", parameters_.scene.rodCount(), parameters_.length_timeout},
+          [this](const topic_tools::ShapeShifter& message) { return readRodLengths(message, parameters_.length_unit); },
+          [this](const Eigen::VectorXd& lengths, const ros::Time& stamp) { onLengths(lengths, stamp); },
+          [this](const std::string& fault) { input_fault_ = fault; }),
+      wrench_input_(
+          node, "platform_wrench", parameters_.frames, parameters_.wrench_timeout,
+          [this] { return estimator_.estimate() ? &estimator_.estimate()->solution.X_BP : nullptr; },
+          [this](const Wrench& wrench) { onWrench(wrench); }) {
+  estimate_publisher_ = private_node_.advertise<PlatformEstimate>("estimate", 10);
+  marker_publisher_ = private_node_.advertise<visualization_msgs::MarkerArray>("markers", 1);
+  diagnostics_.setHardwareID("live_stiffness");
+  diagnostics_.add("Rod lengths", &length_input_, &ArrayInput::diagnose);
+  diagnostics_.add("Solver", this, &ParallelNode::diagnoseSolver);
+  timers_ = {node_.createTimer(ros::Duration(1.0 / parameters_.heartbeat), &ParallelNode::onHeartbeat, this),
+             node_.createTimer(ros::Duration(1.0 / parameters_.marker_rate), &ParallelNode::onMarkers, this)};
+  diagnostics_timer_ = node_.createWallTimer(ros::WallDuration(0.2),
+                                             [this](const ros::WallTimerEvent&) { diagnostics_.update(); });
+  ROS_INFO("%d rods", parameters_.scene.rodCount());
+}
+
+void ParallelNode::onLengths(const Eigen::VectorXd& lengths, const ros::Time& stamp) {
+  length_stamp_ = stamp;
+  input_fault_.clear();
+  estimator_.setLengths({lengths.data(), lengths.data() + lengths.size()});
+  react();
+}
+
+void ParallelNode::onWrench(const Wrench& wrench) {
+  estimator_.setWrench(wrench);
+  react();
+}
+
+void ParallelNode::react() {
+  if (!estimator_.status().ok()) length_input_.reject(estimator_.statusText());
+  else estimate_stamp_ = length_stamp_;
+  publishEstimate();
+}
+
+// The last good estimate, with the truth about how good it still is.
+void ParallelNode::publishEstimate() {
+  if (estimator_.estimate() == nullptr) return;
+  const ParallelEstimate& estimate = *estimator_.estimate();
+  PlatformEstimate message = toEstimate(estimate, estimate_stamp_, parameters_.frames.base);
+  setStanding(estimator_.status().code, newestFault(), length_input_.isStale(), parameters_.length_timeout,
+              "rod lengths", message);
+  estimate_publisher_.publish(message);
+  if (!message.stale) pose_output_.publish(estimate.solution.X_BP, estimate_stamp_);
+}
+
+void ParallelNode::onHeartbeat(const ros::TimerEvent&) {
+  length_input_.tend();
+  wrench_input_.tend();
+  if (isStale()) publishEstimate();
+}
+
+void ParallelNode::onMarkers(const ros::TimerEvent&) {
+  if (estimator_.estimate() == nullptr) return;
+  marker_publisher_.publish(makeParallelMarkers(*estimator_.estimate(), parameters_.scene, isStale(),
+                                                parameters_.style, estimate_stamp_));
+}
+
+void ParallelNode::diagnoseSolver(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  reportSolver(estimator_, wrench_input_.fault(), status);
+}
+
+}  // namespace live_stiffness

@@ -1,0 +1,214 @@
+#include "live_stiffness/ros/tip_handle.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "live_stiffness/analysis/holding_wrench.h"
+#include "live_stiffness/estimation/tip_force.h"
+#include "live_stiffness/ros/conversions.h"
+
+namespace live_stiffness {
+namespace {
+
+using interactive_markers::MenuHandler;
+using visualization_msgs::InteractiveMarkerControl;
+using visualization_msgs::InteractiveMarkerFeedback;
+
+constexpr int kSections = 20;  // of the ghost, per segment
+constexpr char kOtherShape[] = "no ghost: the robot is in another stable shape than the one it takes from rest";
+
+const char* titleOf(TipHandle::Question question) {
+  switch (question) {
+    case TipHandle::Question::kForceAtPosition: return "Drag the tip: force that holds it at the position";
+    case TipHandle::Question::kWrenchAtPose: return "Drag the tip: wrench that holds it at the pose";
+    case TipHandle::Question::kDeflectionUnderWrench: return "Apply a wrench: deflection";
+  }
+  return "";
+}
+
+std::string wrenchText(const Wrench& wrench) {
+  char text[120];
+  const Vector3 f = 1e3 * linear(wrench), m = 1e3 * angular(wrench);
+  int size = std::snprintf(text, sizeof text, "%.3g mN (%.3g, %.3g, %.3g)", f.norm(), f.x(), f.y(), f.z());
+  if (m.norm() > 0.0)
+    size += std::snprintf(text + size, sizeof text - size, "\n%.3g mN m (%.3g, %.3g, %.3g)", m.norm(), m.x(), m.y(),
+                          m.z());
+  return std::string(text, size);
+}
+
+// How far the tip moved, and by how much (19) misses that.
+std::string motionText(const Pose& before, const Pose& after, const Pose& predicted) {
+  const PoseDifference motion = differenceOf(before, after), error = differenceOf(predicted, after);
+  char text[120];
+  std::snprintf(text, sizeof text, "%.3g mm, %.3g deg; from C alone %.2g mm off", 1e3 * motion.position,
+                degrees(motion.rotation), 1e3 * error.position);
+  return text;
+}
+
+InteractiveMarkerControl axisControl(const Vector3& axis, uint8_t mode, const std::string& name) {
+  InteractiveMarkerControl control;
+  control.name = name;
+  control.interaction_mode = mode;
+  control.orientation_mode = InteractiveMarkerControl::FIXED;
+  // rviz moves along, and turns about, the x axis of a control.
+  control.orientation = toQuaternion(Eigen::Quaterniond::FromTwoVectors(Vector3::UnitX(), axis).toRotationMatrix());
+  return control;
+}
+
+}  // namespace
+
+constexpr char TipHandle::kName[];
+
+TipHandle::TipHandle(const ros::NodeHandle& private_node, const StiffnessModel& model, const MarkerStyle& style,
+                     const TipHandleOptions& options, ros::Publisher markers, AskNewest newest)
+    : model_(model),
+      style_(style),
+      options_(options),
+      markers_(std::move(markers)),
+      newest_(std::move(newest)),
+      workspace_(model.makeWorkspace()),
+      server_(private_node.resolveName("tip_marker")) {
+  fillMenu();
+}
+
+void TipHandle::fillMenu() {
+  for (Question question :
+       {Question::kForceAtPosition, Question::kWrenchAtPose, Question::kDeflectionUnderWrench})
+    entries_.push_back(menu_.insert(
+        titleOf(question), [this, question](const InteractiveMarkerFeedback::ConstPtr&) { choose(question); }));
+  menu_.insert("Let go", [this](const InteractiveMarkerFeedback::ConstPtr&) { letGo(); });
+  choose(question_);
+}
+
+void TipHandle::choose(Question question) {
+  question_ = question;
+  for (size_t i = 0; i < entries_.size(); ++i)
+    menu_.setCheckState(entries_[i],
+                        static_cast<size_t>(question) == i ? MenuHandler::CHECKED : MenuHandler::UNCHECKED);
+  letGo();
+  is_inserted_ = false;  // it needs other controls; not at once, as the server may just be calling back
+}
+
+void TipHandle::letGo() {
+  dragged_.reset();
+  asked_.reset();
+  wrench_.setZero();
+  next_answer_ = ros::WallTime();
+  markers_.publish(makeGhostMarkers(nullptr, options_.force_per_m, style_, ros::Time()));
+}
+
+void TipHandle::insertMarker(const Pose& X_BT) {
+  visualization_msgs::InteractiveMarker marker;
+  marker.header.frame_id = style_.frame;  // and no stamp: so rviz answers in this frame
+  marker.name = kName;
+  marker.description = titleOf(question_);
+  marker.scale = static_cast<float>(0.3 * model_.scene().length());
+  marker.pose = toPose(X_BT);
+  const Vector3 axes[] = {Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ()};
+  for (int k = 0; k < 3; ++k) {
+    const std::string name(1, "xyz"[k]);
+    marker.controls.push_back(axisControl(axes[k], InteractiveMarkerControl::MOVE_AXIS, "move_" + name));
+    if (question_ != Question::kForceAtPosition)
+      marker.controls.push_back(axisControl(axes[k], InteractiveMarkerControl::ROTATE_AXIS, "turn_" + name));
+  }
+  InteractiveMarkerControl ball;  // drag it in the plane of the screen; a right click opens the menu
+  ball.name = "move";
+  ball.interaction_mode = InteractiveMarkerControl::MOVE_3D;
+  ball.always_visible = true;
+  // Without a frame it is in the handle's own.
+  ball.markers.push_back(newMarker("", ros::Time(), "", 0, visualization_msgs::Marker::SPHERE));
+  setBall(ball.markers.back(), Vector3::Zero(), 0.35 * marker.scale, color(0.9, 0.9, 0.95, 0.35));
+  marker.controls.push_back(ball);
+  server_.insert(marker, [this](const InteractiveMarkerFeedback::ConstPtr& feedback) { onFeedback(feedback); });
+  menu_.apply(server_, kName);
+  is_inserted_ = true;
+}
+
+void TipHandle::onFeedback(const InteractiveMarkerFeedback::ConstPtr& feedback) {
+  const NewestEstimate newest = newest_();
+  if (feedback->event_type != InteractiveMarkerFeedback::POSE_UPDATE || newest.estimate == nullptr) return;
+  const Reading<Pose> pose = readPose(feedback->pose);
+  const Reading<Matrix3> axes = readAxes(feedback->header.frame_id, {style_.frame, ""}, nullptr);
+  if (!pose.ok() || !axes.ok()) {
+    ROS_ERROR_THROTTLE(1.0, "tip_marker: %s", (pose.ok() ? axes.fault : pose.fault).c_str());
+    return;
+  }
+  dragged_ = pose.value;
+  const Twist drag = residualTwist(*dragged_, newest.estimate->solution.X_BT);
+  wrench_ << options_.force_per_m * linear(drag), options_.moment_per_rad * angular(drag);
+  if (question_ == Question::kForceAtPosition) angular(wrench_).setZero();
+}
+
+bool TipHandle::isAnswered(const Estimate& estimate) const {
+  return asked_ && asked_->pressures == estimate.pressures && asked_->tip_wrench == estimate.tip_wrench &&
+         asked_->X_BH.p == dragged_->p && asked_->X_BH.R == dragged_->R;
+}
+
+void TipHandle::update() {
+  const NewestEstimate newest = newest_();
+  if (newest.estimate == nullptr) return;
+  const Estimate& estimate = *newest.estimate;
+  if (!is_inserted_) insertMarker(estimate.solution.X_BT);
+  if (!dragged_) server_.setPose(kName, toPose(estimate.solution.X_BT));
+  server_.applyChanges();
+  if (!dragged_) return;
+  const ros::WallTime start = ros::WallTime::now();
+  if (!isAnswered(estimate) && start >= next_answer_) {
+    ghost_ = answer(estimate);
+    asked_ = Asked{estimate.pressures, estimate.tip_wrench, *dragged_};
+    const ros::WallTime end = ros::WallTime::now();
+    next_answer_ = end + (end - start) * 4.0;
+  }
+  markers_.publish(makeGhostMarkers(&ghost_, options_.force_per_m, style_, newest.stamp));
+}
+
+Ghost TipHandle::answer(const Estimate& estimate) {
+  Ghost ghost = question_ == Question::kDeflectionUnderWrench ? answerDeflection(estimate) : answerForce(estimate);
+  ghost.text_place = {dragged_->p.x(), dragged_->p.y(),  // above handle, tip and eigenvalues
+                      std::max(dragged_->p.z(), estimate.solution.X_BT.p.z()) + 0.036};
+  return ghost;
+}
+
+Ghost TipHandle::answerForce(const Estimate& estimate) {
+  HoldGoal goal{dragged_->p, std::nullopt};
+  if (question_ == Question::kWrenchAtPose) goal.orientation = dragged_->R;
+  const HoldingWrench found = findHoldingWrench(model_, estimate.pressures, estimate.tip_wrench, goal, workspace_);
+  Ghost ghost;
+  if (!found.before.status.ok()) {
+    ghost.text = "no ghost: " + model_.describe(found.before.status);
+  } else if (!isSameEquilibrium(found.before.X_BT, estimate.solution.X_BT, model_)) {
+    ghost.text = kOtherShape;
+  } else if (!found.reached) {
+    ghost.text = "no stable equilibrium there;\nthe tip comes to " + numberText(1e3 * found.miss.position) +
+                 " mm from it under\n" + wrenchText(found.wrench);
+  } else {
+    const Pose predicted = predictDeflection(found.before.X_BT, found.before.compliance, found.wrench).exponential;
+    ghost.X_BT = found.held.X_BT;
+    ghost.force = linear(found.wrench);
+    ghost.text = wrenchText(found.wrench) + "\n" + motionText(found.before.X_BT, ghost.X_BT, predicted);
+    addShape(ghost);
+  }
+  return ghost;
+}
+
+Ghost TipHandle::answerDeflection(const Estimate& estimate) {
+  const DeflectionCheck check = checkDeflection(model_, estimate.pressures, estimate.tip_wrench, wrench_, workspace_);
+  Ghost ghost;
+  if (!check.undeflected_ok || !check.status.ok()) {
+    ghost.text = wrenchText(wrench_) + "\nno ghost: " + model_.describe(check.status);
+  } else if (!isSameEquilibrium(check.undeflected, estimate.solution.X_BT, model_)) {
+    ghost.text = kOtherShape;
+  } else {
+    ghost.X_BT = check.exact;
+    ghost.force = linear(wrench_);
+    ghost.text = wrenchText(wrench_) + "\n" + motionText(check.undeflected, check.exact, check.predicted.exponential);
+    addShape(ghost);
+  }
+  return ghost;
+}
+
+void TipHandle::addShape(Ghost& ghost) const {
+  for (const Station& station : sampleBackbone(model_, workspace_, kSections)) ghost.shape.push_back(station.X_BS);
+}
+
+}  // namespace live_stiffness
