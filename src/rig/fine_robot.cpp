@@ -9,28 +9,36 @@ namespace live_stiffness {
 namespace {
 
 // Derivative of [stretch; curvature x, y] by the share of the load that is on:
-//   dlam = lam F / (E A(lam)),   du = (E I(lam))^-1 T(1) / sqrt(lam), the moment arm shrinking with the section.
-Vector3 loadRate(const SectionMoments& section, double force, const Vector3& moment, const Vector3& state) {
+//   dlam = lam F / (E A(lam)),   du = (E I(lam))^-1 T(1) / sqrt(lam), the moment arm shrinking with the section,
+// with E and what the pressures add as the material has them.
+struct Load {
+  double force;
+  Vector3 moment;
+  ChamberStiffnessOf<double> stiffness;  // of all pressures
+};
+
+Vector3 loadRate(const SectionMoments& section, const Load& load, double share, const Vector3& state) {
   const double lam = state[0];
-  const double E = section.youngsModulus();
+  const ChamberStiffnessOf<double> on{share * load.stiffness.axial, share * load.stiffness.bending};
   Vector3 rate;
-  rate[0] = lam * force / (E * section.area(lam));
-  rate.tail<2>() = section.secondMoments(lam).inverse() * moment.head<2>() / (E * std::sqrt(lam));
+  rate[0] = lam * load.force / section.axialStiffness(lam, on);
+  rate.tail<2>() = section.bendingStiffness(lam, on).inverse() * load.moment.head<2>() / std::sqrt(lam);
   return rate;
 }
 
 // Runge-Kutta over the load; false if the section's area or moments run out on the way.
-bool followLoad(const SectionMoments& section, double force, const Vector3& moment, Vector3& state) {
+bool followLoad(const SectionMoments& section, const Load& load, Vector3& state) {
   const double h = 1.0 / FineRobot::kLoadSteps;
   state = Vector3(1.0, 0.0, 0.0);
   for (int step = 0; step < FineRobot::kLoadSteps; ++step) {
-    const Vector3 k1 = loadRate(section, force, moment, state);
+    const double share = step * h;
+    const Vector3 k1 = loadRate(section, load, share, state);
     if (!section.isValidAt(state[0] + 0.5 * h * k1[0])) return false;
-    const Vector3 k2 = loadRate(section, force, moment, state + 0.5 * h * k1);
+    const Vector3 k2 = loadRate(section, load, share + 0.5 * h, state + 0.5 * h * k1);
     if (!section.isValidAt(state[0] + 0.5 * h * k2[0])) return false;
-    const Vector3 k3 = loadRate(section, force, moment, state + 0.5 * h * k2);
+    const Vector3 k3 = loadRate(section, load, share + 0.5 * h, state + 0.5 * h * k2);
     if (!section.isValidAt(state[0] + h * k3[0])) return false;
-    const Vector3 k4 = loadRate(section, force, moment, state + h * k3);
+    const Vector3 k4 = loadRate(section, load, share + h, state + h * k3);
     state += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
     if (!section.isValidAt(state[0])) return false;
   }
@@ -54,7 +62,9 @@ bool FineRobot::loadSegments(PressuresRef pressures, std::vector<LoadedSegment>&
     first += chambers.count();
     const SectionMoments section(segment->section);
     Vector3 state;
-    if (!followLoad(section, chambers.actuationForce(own), chambers.actuationMoment(own, 1.0), state)) return false;
+    const Load load{chambers.actuationForce(own), chambers.actuationMoment(own, 1.0),
+                    segment->section.chamberStiffness(own)};
+    if (!followLoad(section, load, state)) return false;
     LoadedSegment& loaded = segments.emplace_back();
     loaded.length = state[0] * segment->length;
     loaded.rest_curvature << state[1], state[2], 0.0;

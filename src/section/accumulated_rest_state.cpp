@@ -5,7 +5,7 @@
 namespace live_stiffness {
 
 AccumulatedRestState::AccumulatedRestState(const CrossSection& section)
-    : chambers_(section.chambers), moments_(section) {
+    : section_(section), moments_(section) {
   reset();
 }
 
@@ -17,14 +17,15 @@ void AccumulatedRestState::reset() {
 }
 
 bool AccumulatedRestState::advanceTo(PressuresRef pressures) {
-  if (pressures.size() != chambers_.count() || !pressures.allFinite()) return false;
-  const double force = chambers_.actuationForce(pressures);
-  const Vector3 moment = chambers_.actuationMoment(pressures, 1.0);
+  if (pressures.size() != section_.chambers.count() || !pressures.allFinite()) return false;
+  const double force = section_.chambers.actuationForce(pressures);
+  const Vector3 moment = section_.chambers.actuationMoment(pressures, 1.0);
   const double stretch = state_.stretch * (1.0 + state_.c.shear_elongation(2, 2) * (force - force_));
-  if (!moments_.isValidAt(stretch)) return false;
+  const ChamberStiffnessOf<double> pressurised = section_.chamberStiffness(pressures);
+  if (!moments_.isValidAt(stretch, pressurised)) return false;
   state_.curvature += state_.c.bending_torsion * (moment - moment_) / std::sqrt(state_.stretch);
   state_.stretch = stretch;
-  state_.c = moments_.complianceDensity(stretch);
+  state_.c = moments_.complianceDensity(stretch, pressurised);
   force_ = force;
   moment_ = moment;
   return true;

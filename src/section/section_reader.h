@@ -10,7 +10,9 @@ namespace live_stiffness {
 void readTube(YamlMap& map, CrossSection& section);
 
 // youngs_modulus_pa, poissons_ratio or shear_modulus_pa, shear_correction (default 1), density_kg_m3 (needed under
-// gravity only) into `section`.
+// gravity only) into `section`. Where it has chambers, also what pressure and stretch do to them and to the material:
+// stretch_law (section_update by default, neo_hookean, gent with gent_limit, yeoh with yeoh_c2 and yeoh_c3),
+// chamber_area_growth_per_pa, pressure_stiffening, creep_share and creep_time_s; see material.h and chambers.h.
 void readMaterial(YamlMap& map, bool has_gravity, CrossSection& section);
 
 }  // namespace live_stiffness

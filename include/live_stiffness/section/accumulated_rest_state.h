@@ -25,7 +25,7 @@ class AccumulatedRestState {
   void reset();
 
  private:
-  Chambers chambers_;
+  CrossSection section_;
   SectionMoments moments_;
   RestState state_;
   double force_ = 0.0;                 // F_P of the last pressures, N

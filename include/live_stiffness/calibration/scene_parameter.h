@@ -1,0 +1,42 @@
+#pragma once
+// Numbers of a scene that a calibration may change: names, what is known of them beforehand, and their bounds.
+
+#include <string>
+#include <vector>
+
+#include "live_stiffness/rod/scene.h"
+#include "live_stiffness/section/channel_map.h"
+
+namespace live_stiffness {
+
+enum class ParameterKind {
+  kYoungsModulus, kShearModulus, kShearCorrection, kLength, kPitchRadius, kChamberRadius, kAreaGrowth, kGentLimit,
+  kYeohC2, kYeohC3, kPressureStiffening, kCreepShare, kCreepTime, kTipMass, kLinkMass, kChannelAzimuth,
+};
+
+struct SceneParameter {
+  std::string name;  // its key in the scene file, such as youngs_modulus_pa; of a channel's azimuth channel_azimuth_K_deg,
+                     // K from 1, of the last link's mass link_mass_kg
+  ParameterKind kind = ParameterKind::kYoungsModulus;
+  std::vector<int> chambers;  // of kChannelAzimuth: which of a segment's chambers
+  // All in SI (azimuths in rad, see `unit`):
+  double start = 0.0;        // the scene's value; where the search begins
+  double prior_mean = 0.0;   // what is known beforehand: a normal distribution, cut off at the bounds
+  double prior_sigma = 1.0;
+  double low = 0.0, high = 0.0;
+  double unit = 1.0;         // SI value of one unit of `name`
+};
+
+// Parameter of a name for a scene, with its default prior and bounds; `segment` values are those of the first
+// segment, and a calibrated value is given to all of them. Throws ConfigurationError with the legal names on an
+// unknown one, or one that this scene does not have (a Gent limit without that law, a link's mass without a link, no
+// such channel).
+SceneParameter sceneParameter(const std::string& name, const Scene& scene, const ChannelMap& channels);
+
+// All names that this scene has.
+std::vector<std::string> sceneParameterNames(const Scene& scene, const ChannelMap& channels);
+
+// The scene with the parameters at these values (SI).
+Scene withParameters(const Scene& scene, const std::vector<SceneParameter>& parameters, const Eigen::VectorXd& values);
+
+}  // namespace live_stiffness

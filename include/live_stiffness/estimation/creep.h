@@ -1,0 +1,38 @@
+#pragma once
+// Creep of a segment under pressure: one exponential mode, in front of the static model.
+//
+// Of a step of pressure the share a acts late, with the time constant tau: the model is given
+//   P_eff = (1 - a) P + a y,   tau dy/dt = P - y.
+// T is double, or a type that carries derivatives.
+
+#include <cmath>
+
+#include "live_stiffness/conventions.h"
+
+namespace live_stiffness {
+
+template <class T>
+class CreepFilterOf {
+ public:
+  using Values = Eigen::Matrix<T, Eigen::Dynamic, 1>;
+
+  // share: 0 to below 1; time: s, positive.
+  CreepFilterOf(const T& share, const T& time) : share_(share), time_(time) {}
+
+  // Effective pressures, Pa, for pressures that held since the last call, `elapsed` s ago. The first call settles the
+  // filter: its pressures are taken to have been there for long.
+  Values update(PressuresRef pressures, double elapsed) {
+    using std::exp;
+    if (late_.size() != pressures.size()) late_ = pressures.cast<T>();
+    else late_ += (pressures.cast<T>() - late_) * T(1.0 - exp(-elapsed / time_));
+    return pressures.cast<T>() * T(1.0 - share_) + late_ * share_;
+  }
+  void reset() { late_.resize(0); }
+
+ private:
+  T share_, time_;
+  Values late_;  // y, Pa
+};
+using CreepFilter = CreepFilterOf<double>;
+
+}  // namespace live_stiffness

@@ -1,0 +1,255 @@
+#include "live_stiffness/calibration/calibration.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "calibration/calibration_problem.h"
+#include "live_stiffness/checks.h"
+
+namespace live_stiffness {
+namespace {
+
+constexpr double kMostTurnError = 5.0;     // deg, and
+constexpr double kMostOffsetError = 5e-3;  // m: a registration known worse than this counts as not determined
+
+constexpr double kCoarse = 1e-4, kFine = 1e-7;  // relative change of the cost at which a search ends
+
+double median(std::vector<double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::nth_element(values.begin(), values.begin() + static_cast<long>(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+struct SampleErrors {
+  Vector3 position;  // A axes, m
+  double rotation;   // rad
+};
+
+SampleErrors errorsOf(const Registration& registration, const Pose& X_BT, const RecordedSample& sample) {
+  const Pose predicted = registration.sensorPose(X_BT);
+  const Pose measured = sample.tipPose();
+  return {predicted.p - measured.p, logSo3(predicted.R * measured.R.transpose()).norm()};
+}
+
+// Standard deviations per axis from the residuals of the used samples. The median length of a 3-vector of unit variance
+// is 1.538. Not below a tenth of the tracker's own noise, so that a simulation without noise stays well conditioned.
+CalibrationProblem::Sigmas residualSigmas(CalibrationProblem& problem, size_t recordings,
+                                          const CalibrationProblem::Solution& solution,
+                                          const CalibrationOptions& options) {
+  std::vector<double> positions, rotations;
+  for (size_t n = 0; n < recordings; ++n) {
+    RecordingEvaluator& evaluator = problem.evaluator(n);
+    const Registration registration = evaluator.registration(solution.unknowns.registrations[n]);
+    const std::vector<TipPrediction>* predictions = evaluator.at(solution.unknowns.x.data(), false);
+    if (predictions == nullptr) continue;
+    for (size_t i = 0; i < predictions->size(); ++i) {
+      if (!evaluator.data().used[i]) continue;
+      const SampleErrors errors = errorsOf(registration, (*predictions)[i].X_BT, evaluator.data().recording.samples[i]);
+      positions.push_back(errors.position.norm());
+      rotations.push_back(errors.rotation);
+    }
+  }
+  if (positions.empty()) return {options.position_sigma, options.rotation_sigma};
+  constexpr double kMedianLength = 1.538, kLeastPosition = 3e-5, kLeastRotation = 3e-4;
+  return {std::max(median(positions) / kMedianLength, kLeastPosition),
+          options.rotation_sigma > 0.0 ? std::max(median(rotations) / kMedianLength, kLeastRotation) : 0.0};
+}
+
+// Inverse of a symmetric matrix that may be singular, by eigenvalues; directions without information get a huge
+// variance.
+Eigen::MatrixXd inverseInformation(const Eigen::MatrixXd& information) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(information);
+  const double least = 1e-12 * std::max(1.0, eigen.eigenvalues().cwiseAbs().maxCoeff());
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(least).cwiseInverse().asDiagonal() *
+         eigen.eigenvectors().transpose();
+}
+
+void describeParameters(const CalibrationProblem& problem, const std::vector<SceneParameter>& parameters,
+                        const CalibrationProblem::Solution& solution, size_t recordings, bool use_priors,
+                        CalibrationResult& result) {
+  const long count = static_cast<long>(parameters.size());
+  const long rest = solution.jacobian.cols() - count;
+  Eigen::MatrixXd information = solution.jacobian.transpose() * solution.jacobian;
+  for (size_t n = 0; n < recordings; ++n)  // the weak prior on the sensor's offset
+    for (int k = 6; k < 9; ++k) {
+      const long at = count + static_cast<long>(n) * kRegistrationSize + k;
+      information(at, at) += 1.0 / (kOffsetSigma * kOffsetSigma);
+    }
+  // Of the parameters alone, registrations eliminated: what the data say, in units of the priors' information.
+  Eigen::MatrixXd data = information.topLeftCorner(count, count);
+  if (rest > 0 && count > 0)
+    data -= information.topRightCorner(count, rest) * inverseInformation(information.bottomRightCorner(rest, rest)) *
+            information.bottomLeftCorner(rest, count);
+  const Eigen::MatrixXd prior = Eigen::MatrixXd::Identity(count, count) * (use_priors ? 1.0 : 0.0);
+  const Eigen::MatrixXd covariance = count > 0 ? inverseInformation(data + prior) : Eigen::MatrixXd();
+  const Eigen::MatrixXd data_covariance = count > 0 ? inverseInformation(data) : Eigen::MatrixXd();
+  const Eigen::VectorXd values = problem.values(solution.unknowns.x);
+  for (long k = 0; k < count; ++k) {
+    const SceneParameter& p = parameters[static_cast<size_t>(k)];
+    const double near = 1e-6 * (p.high - p.low);
+    result.parameters.push_back({p, values[k], p.prior_sigma * std::sqrt(covariance(k, k)),
+                                 p.prior_sigma * std::sqrt(data_covariance(k, k)),
+                                 values[k] < p.low + near || values[k] > p.high - near});
+  }
+  if (count > 0) {
+    const Eigen::VectorXd deviation = covariance.diagonal().cwiseSqrt();
+    result.correlation = covariance.cwiseQuotient(deviation * deviation.transpose());
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(data);
+    for (long k = 0; k < count && eigen.eigenvalues()[k] < 1.0; ++k)
+      result.undetermined.push_back({eigen.eigenvectors().col(k), std::max(0.0, eigen.eigenvalues()[k])});
+  }
+  // Registrations, with the parameters as uncertain as they are.
+  if (rest == 0) return;
+  if (count > 0) information.topLeftCorner(count, count) += prior;
+  const Eigen::MatrixXd all = inverseInformation(information);
+  for (size_t n = 0; n < recordings; ++n) {
+    const long at = count + static_cast<long>(n) * kRegistrationSize;
+    const double turn = degrees(std::sqrt(all.diagonal().segment(at, 3).maxCoeff()));
+    const double offset = std::sqrt(all.diagonal().segment(at + 6, 3).maxCoeff());
+    RecordingFit& fit = result.recordings[n];
+    fit.base_rotation_error = radians(turn);
+    fit.sensor_offset_error = offset;
+    fit.determined = turn < kMostTurnError && offset < kMostOffsetError;
+    fit.verdict = std::string(fit.determined ? "determined" : "NOT determined by these data") + ": base rotation +- " +
+                  numberText(turn) + " deg, sensor offset +- " + numberText(1e3 * offset) + " mm";
+    if (!fit.determined) fit.verdict += "; bend the robot well towards at least two sides, or measure the offset";
+  }
+}
+
+void describeRecording(CalibrationProblem& problem, const CalibrationProblem::Solution& solution, size_t n,
+                       RecordingFit& fit) {
+  RecordingEvaluator& evaluator = problem.evaluator(n);
+  const CalibrationRecording& data = evaluator.data();
+  fit.name = data.recording.name;
+  fit.registration = evaluator.registration(solution.unknowns.registrations[n]);
+  std::vector<TipPrediction> predictions;
+  if (!evaluator.predictAll(solution.unknowns.x.data(), predictions))
+    throw ConfigurationError("calibration of " + fit.name, {"a sample has no solution: " + evaluator.failure()});
+  std::vector<double> used, quiet;
+  for (size_t i = 0; i < predictions.size(); ++i) {
+    const SampleErrors errors = errorsOf(fit.registration, predictions[i].X_BT, data.recording.samples[i]);
+    fit.position_error.push_back(errors.position.norm());
+    fit.rotation_error.push_back(errors.rotation);
+    fit.position_residual.push_back(fit.registration.X_AB.R.transpose() * errors.position);
+    if (data.used[i]) used.push_back(errors.position.norm());
+  }
+  for (int i : quasiStaticSamples(data.recording))
+    if (isUnloaded(data.recording.samples[static_cast<size_t>(i)]))
+      quiet.push_back(fit.position_error[static_cast<size_t>(i)]);
+  fit.used = summarizeErrors(std::move(used));
+  fit.quasi_static_unloaded = summarizeErrors(std::move(quiet));
+  fit.left_out_error.assign(predictions.size(), std::numeric_limits<double>::quiet_NaN());
+}
+
+}  // namespace
+
+Wrench ForceSensorMount::atTip(const Wrench& reading, const Matrix3& R_BT) const {
+  const Matrix3 R_BF = R_BT * expSo3(Vector3(0.0, 0.0, azimuth));
+  Wrench wrench;
+  linear(wrench) = sign * (R_BF * linear(reading));
+  angular(wrench) = sign * (R_BF * angular(reading)) + (R_BT * Vector3(0.0, 0.0, height)).cross(linear(wrench));
+  return wrench;
+}
+
+CalibrationRecording::CalibrationRecording(Recording given, SampleChoice choice, LoadedSamples loads)
+    : recording(std::move(given)), channels(gaugePressures(recording)) {
+  used.assign(recording.samples.size(), choice == SampleChoice::kAll);
+  loaded.assign(recording.samples.size(), false);
+  if (choice == SampleChoice::kQuasiStatic)
+    for (int i : quasiStaticSamples(recording)) used[static_cast<size_t>(i)] = true;
+  for (size_t i = 0; i < used.size(); ++i) {
+    if (isUnloaded(recording.samples[i])) continue;
+    loaded[i] = loads != LoadedSamples::kIgnore;
+    used[i] = used[i] && loads == LoadedSamples::kFit;
+  }
+  long unloaded = 0;
+  for (size_t i = 0; i < used.size(); ++i) unloaded += used[i] && !loaded[i];
+  if (unloaded < 3)
+    throw ConfigurationError("recording " + recording.name,
+                             {std::to_string(unloaded) +
+                              " unloaded samples of the kind asked for: must be at least 3"});
+}
+
+CalibrationResult calibrate(const Scene& scene, const ChannelMap& channels,
+                            const std::vector<SceneParameter>& parameters,
+                            const std::vector<CalibrationRecording>& recordings, const std::vector<ComplianceRow>& rows,
+                            const CalibrationOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  const auto progress = [&](const std::string& stage, int done, int total) {
+    if (options.progress) options.progress(stage, done, total);
+  };
+  CalibrationProblem problem(scene, channels, parameters, recordings, rows, options);
+  CalibrationProblem::Sigmas sigmas{options.position_sigma, options.rotation_sigma};
+  progress("fitting", 0, 3);
+  CalibrationProblem::Solution solution = problem.solve(problem.start(), sigmas, {}, kCoarse);
+  for (int round = 1; round <= 2; ++round) {  // with the sigmas seen, and wrenches turned by the registration found
+    progress("fitting", round, 3);
+    sigmas = residualSigmas(problem, recordings.size(), solution, options);
+    for (size_t n = 0; n < recordings.size(); ++n)
+      problem.evaluator(n).updateWrenches(problem.evaluator(n).registration(solution.unknowns.registrations[n]));
+    solution = problem.solve(solution.unknowns, sigmas, {}, round == 2 ? kFine : kCoarse, round == 2);
+  }
+  progress("fitting", 3, 3);
+
+  CalibrationResult result;
+  result.converged = solution.converged;
+  result.message = solution.message;
+  result.iterations = solution.iterations;
+  result.position_sigma = sigmas.position;
+  result.rotation_sigma = sigmas.rotation;
+  result.scene = withParameters(scene, parameters, problem.values(solution.unknowns.x));
+  result.recordings.resize(recordings.size());
+  for (size_t n = 0; n < recordings.size(); ++n) describeRecording(problem, solution, n, result.recordings[n]);
+  describeParameters(problem, parameters, solution, recordings.size(), options.use_priors, result);
+
+  const int blocks = std::max(options.blocks, 0);
+  const int total = blocks * static_cast<int>(recordings.size()) + (blocks > 0 ? static_cast<int>(rows.size()) : 0);
+  int done = 0;
+  for (size_t n = 0; n < recordings.size(); ++n) {
+    RecordingFit& fit = result.recordings[n];
+    for (int block = 0; block < blocks; ++block) {
+      progress("leaving blocks out", done++, total);
+      const auto without = problem.solve(solution.unknowns, sigmas, {static_cast<int>(n), block, -1}, kCoarse);
+      RecordingEvaluator& evaluator = problem.evaluator(n);
+      const Registration registration = evaluator.registration(without.unknowns.registrations[n]);
+      const std::vector<TipPrediction>* predictions = evaluator.at(without.unknowns.x.data(), false);
+      if (predictions == nullptr) continue;
+      for (size_t i = 0; i < predictions->size(); ++i)
+        if (problem.blockOf(n, i) == block)
+          fit.left_out_error[i] =
+              errorsOf(registration, (*predictions)[i].X_BT, recordings[n].recording.samples[i]).position.norm();
+    }
+    std::vector<double> left_out;
+    for (double error : fit.left_out_error)
+      if (std::isfinite(error)) left_out.push_back(error);
+    if (!left_out.empty()) fit.left_out = summarizeErrors(std::move(left_out));
+  }
+  for (size_t row = 0; row < rows.size(); ++row) {
+    ComplianceFit fit;
+    fit.name = rows[row].name;
+    fit.measured = rows[row].compliance;
+    const double norm = fit.measured.norm();
+    if (!problem.rowCompliance(row, solution.unknowns.x.data(), fit.predicted))
+      throw ConfigurationError(fit.name, {"the fitted model has no solution there"});
+    fit.norm_error = std::abs(norm - fit.predicted.norm()) / norm;
+    fit.matrix_error = (fit.measured - fit.predicted).norm() / norm;
+    fit.left_out = fit.predicted;
+    if (blocks > 0) {
+      progress("leaving blocks out", done++, total);
+      const auto without = problem.solve(solution.unknowns, sigmas, {-1, -1, static_cast<int>(row)}, kFine);
+      if (!problem.rowCompliance(row, without.unknowns.x.data(), fit.left_out)) fit.left_out.setConstant(NAN);
+    }
+    fit.left_out_norm_error = std::abs(norm - fit.left_out.norm()) / norm;
+    fit.left_out_matrix_error = (fit.measured - fit.left_out).norm() / norm;
+    result.rows.push_back(fit);
+  }
+  if (total > 0) progress("leaving blocks out", total, total);
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return result;
+}
+
+}  // namespace live_stiffness

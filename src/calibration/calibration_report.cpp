@@ -1,0 +1,145 @@
+#include "live_stiffness/calibration/calibration_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <locale>
+#include <sstream>
+
+#include "live_stiffness/checks.h"
+
+namespace live_stiffness {
+namespace {
+
+constexpr double kTellingApart = 0.9;  // correlations above are named
+
+std::string padded(std::string text, size_t width) {
+  text.resize(std::max(width, text.size()), ' ');
+  return text;
+}
+
+std::string inUnit(const SceneParameter& parameter, double si) { return numberText(si / parameter.unit); }
+
+std::string percent(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f %%", 100.0 * share);
+  return text;
+}
+
+std::string directionText(const UndeterminedDirection& direction, const std::vector<ParameterFit>& parameters) {
+  const double largest = direction.weights.cwiseAbs().maxCoeff();
+  std::string text;
+  for (long k = 0; k < direction.weights.size(); ++k) {
+    const double weight = direction.weights[k];
+    if (std::abs(weight) < 0.2 * largest) continue;
+    const SceneParameter& p = parameters[static_cast<size_t>(k)].parameter;
+    text += (text.empty() ? "" : "  ") + p.name + (weight < 0.0 ? " -" : " +") +
+            inUnit(p, std::abs(weight) * p.prior_sigma);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string reportText(const CalibrationResult& result) {
+  std::ostringstream out;
+  out << (result.converged ? "converged" : "NOT converged: " + result.message) << "; " << numberText(result.seconds)
+      << " s\n";
+  if (!result.parameters.empty()) {
+    out << "\n" << padded("parameter", 28) << padded("estimate", 12) << padded("std error", 12)
+        << padded("data alone", 12) << "prior\n";
+    for (const ParameterFit& fit : result.parameters) {
+      const SceneParameter& p = fit.parameter;
+      out << padded(p.name, 28) << padded(inUnit(p, fit.value), 12) << padded(inUnit(p, fit.standard_error), 12)
+          << padded(fit.data_error > 1e3 * p.prior_sigma ? "none" : inUnit(p, fit.data_error), 12)
+          << inUnit(p, p.prior_mean) << " +- " << inUnit(p, p.prior_sigma) << (fit.at_bound ? "   AT ITS BOUND" : "")
+          << "\n";
+    }
+    std::string pairs;
+    for (long i = 0; i < result.correlation.rows(); ++i)
+      for (long j = 0; j < i; ++j)
+        if (std::abs(result.correlation(i, j)) > kTellingApart)
+          pairs += "  " + result.parameters[static_cast<size_t>(j)].parameter.name + " and " +
+                   result.parameters[static_cast<size_t>(i)].parameter.name + ": " +
+                   numberText(result.correlation(i, j)) + "\n";
+    if (!pairs.empty()) out << "\nstrongly correlated:\n" << pairs;
+    if (result.undetermined.empty()) out << "\nthe data determine every direction better than the priors do\n";
+    else out << "\nthe data cannot tell these changes from none (the prior decides):\n";
+    for (const UndeterminedDirection& direction : result.undetermined)
+      out << "  " << directionText(direction, result.parameters) << "\n";
+  }
+  for (const RecordingFit& fit : result.recordings) {
+    out << "\n" << fit.name << "\n"
+        << "  tip error, samples of the fit:      " << millimetreText(fit.used) << "\n";
+    if (fit.quasi_static_unloaded.count > 0)
+      out << "  tip error, quasi-static unloaded:   " << millimetreText(fit.quasi_static_unloaded) << "\n";
+    if (fit.left_out.count > 0)
+      out << "  tip error, its block left out:      " << millimetreText(fit.left_out) << "\n";
+    out << "  registration: " << fit.verdict << "\n";
+  }
+  if (!result.recordings.empty())
+    out << "\nnoise seen (per axis): " << numberText(1e3 * result.position_sigma) << " mm, "
+        << numberText(degrees(result.rotation_sigma)) << " deg\n";
+  double norms = 0.0, matrices = 0.0, left_norms = 0.0, left_matrices = 0.0;
+  for (const ComplianceFit& fit : result.rows) {
+    out << "\n" << fit.name << ": error of the norm (42) " << percent(fit.norm_error) << ", left out "
+        << percent(fit.left_out_norm_error) << "; of the matrix " << percent(fit.matrix_error) << ", left out "
+        << percent(fit.left_out_matrix_error);
+    const double share = 1.0 / static_cast<double>(result.rows.size());
+    norms += share * fit.norm_error;
+    matrices += share * fit.matrix_error;
+    left_norms += share * fit.left_out_norm_error;
+    left_matrices += share * fit.left_out_matrix_error;
+  }
+  if (!result.rows.empty())
+    out << "\nmean: error of the norm (42) " << percent(norms) << ", left out " << percent(left_norms)
+        << "; of the matrix " << percent(matrices) << ", left out " << percent(left_matrices) << "\n";
+  return out.str();
+}
+
+std::string sceneHeader(const CalibrationResult& result, const std::string& how) {
+  return "Calibrated: " + how + "\n" + reportText(result);
+}
+
+std::string residualTable(const CalibrationResult& result, const std::vector<CalibrationRecording>& recordings) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(9);
+  out << "recording,time_s,used,error_x_m,error_y_m,error_z_m,error_m,rotation_error_rad,left_out_error_m";
+  const int channels = recordings.empty() ? 0 : recordings.front().recording.channelCount();
+  for (int k = 1; k <= channels; ++k) out << ",pressure_" << k << "_pa";
+  out << "\n";
+  for (size_t n = 0; n < recordings.size(); ++n) {
+    const RecordingFit& fit = result.recordings[n];
+    for (size_t i = 0; i < fit.position_error.size(); ++i) {
+      const Vector3& e = fit.position_residual[i];
+      out << fit.name << "," << recordings[n].recording.samples[i].time << "," << recordings[n].used[i] << "," << e.x()
+          << "," << e.y() << "," << e.z() << "," << fit.position_error[i] << "," << fit.rotation_error[i] << ",";
+      if (std::isfinite(fit.left_out_error[i])) out << fit.left_out_error[i];
+      for (int k = 0; k < channels; ++k) out << "," << recordings[n].channels[i][k];
+      out << "\n";
+    }
+  }
+  return out.str();
+}
+
+std::string complianceTableOf(const CalibrationResult& result) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(9);
+  out << "row,norm_error,matrix_error,left_out_norm_error,left_out_matrix_error";
+  for (const char* which : {"measured", "predicted", "left_out"})
+    for (int j = 1; j <= 3; ++j)
+      for (int i = 1; i <= 3; ++i) out << "," << which << "_c" << i << j << "_m_per_n";
+  out << "\n";
+  for (const ComplianceFit& fit : result.rows) {
+    out << fit.name << "," << fit.norm_error << "," << fit.matrix_error << "," << fit.left_out_norm_error << ","
+        << fit.left_out_matrix_error;
+    for (const Matrix3* C : {&fit.measured, &fit.predicted, &fit.left_out})
+      for (int k = 0; k < 9; ++k) out << "," << (*C)(k);
+    out << "\n";
+  }
+  return out.str();
+}
+
+}  // namespace live_stiffness

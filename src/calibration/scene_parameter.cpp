@@ -1,0 +1,159 @@
+#include "live_stiffness/calibration/scene_parameter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibration/parametric_scene.h"
+#include "live_stiffness/checks.h"
+
+namespace live_stiffness {
+namespace {
+
+// How well a number is known before any measurement, as the larger of a share of the scene's value and a least one.
+// Made lengths are known to some 5 %: what acts as the elastic length, or where the pressure acts in a chamber, is
+// not what a ruler measures. Moduli of silicones differ by half between batches and test methods.
+struct Known {
+  const char* name;
+  ParameterKind kind;
+  double share, least, low, high, unit;
+};
+constexpr double kDegree = kPi / 180.0;
+constexpr Known kKnown[] = {
+    {"youngs_modulus_pa", ParameterKind::kYoungsModulus, 0.5, 0.0, 1e3, 1e9, 1.0},
+    {"shear_modulus_pa", ParameterKind::kShearModulus, 0.5, 0.0, 1e2, 1e9, 1.0},
+    {"shear_correction", ParameterKind::kShearCorrection, 0.2, 0.0, 0.1, 10.0, 1.0},
+    {"length_m", ParameterKind::kLength, 0.05, 0.0, 1e-3, 10.0, 1.0},
+    {"chamber_pitch_radius_m", ParameterKind::kPitchRadius, 0.05, 0.0, 1e-5, 1.0, 1.0},
+    {"chamber_radius_m", ParameterKind::kChamberRadius, 0.05, 0.0, 1e-5, 1.0, 1.0},
+    {"chamber_area_growth_per_pa", ParameterKind::kAreaGrowth, 0.0, 2e-6, -4.9e-6, 4.9e-6, 1.0},
+    {"gent_limit", ParameterKind::kGentLimit, 1.0, 0.0, 0.1, 1e4, 1.0},
+    {"yeoh_c2", ParameterKind::kYeohC2, 0.0, 0.5, -2.0, 10.0, 1.0},
+    {"yeoh_c3", ParameterKind::kYeohC3, 0.0, 0.5, -2.0, 10.0, 1.0},
+    {"pressure_stiffening", ParameterKind::kPressureStiffening, 0.0, 1.0, 0.0, 10.0, 1.0},
+    {"creep_share", ParameterKind::kCreepShare, 0.0, 0.1, 0.0, 0.5, 1.0},
+    {"creep_time_s", ParameterKind::kCreepTime, 1.0, 1.0, 0.2, 60.0, 1.0},
+    {"tip_mass_kg", ParameterKind::kTipMass, 0.2, 1e-3, 0.0, 10.0, 1.0},
+    {"link_mass_kg", ParameterKind::kLinkMass, 0.2, 1e-3, 0.0, 10.0, 1.0},
+};
+constexpr double kAzimuthSigma = 5.0 * kDegree, kAzimuthReach = 30.0 * kDegree;
+const std::string kAzimuth = "channel_azimuth_";
+
+const Segment& firstSegment(const Scene& scene) {
+  for (const Body& body : scene.chain)
+    if (const auto* segment = std::get_if<Segment>(&body)) return *segment;
+  throw ConfigurationError("scene", {"chain: must hold at least one segment"});
+}
+
+// Chambers of a channel within each segment: all segments alike, or none.
+std::vector<int> chambersOfChannel(const Scene& scene, const ChannelMap& channels, int channel) {
+  const int per_segment = firstSegment(scene).section.chambers.count();
+  const int channels_per_segment = channels.channelCount() / std::max(1, scene.segmentCount());
+  std::vector<int> chambers;
+  for (int k = 0; k < channels.chamberCount(); ++k)
+    if (k < per_segment && channels_per_segment > 0 && channels.channelOfChamber()[k] == channel) chambers.push_back(k);
+  return chambers;
+}
+
+bool isThere(const Known& known, const Scene& scene) {
+  const Material& material = firstSegment(scene).section.material;
+  switch (known.kind) {
+    case ParameterKind::kGentLimit: return material.law == StretchLaw::kGent;
+    case ParameterKind::kYeohC2:
+    case ParameterKind::kYeohC3: return material.law == StretchLaw::kYeoh;
+    case ParameterKind::kLinkMass:
+      return std::any_of(scene.chain.begin(), scene.chain.end(),
+                         [](const Body& body) { return std::holds_alternative<Link>(body); });
+    default: return true;
+  }
+}
+
+double valueIn(const Scene& scene, ParameterKind kind) {
+  ParametricScene<double> numbers = castScene<double>(scene);
+  if (kind == ParameterKind::kTipMass) return numbers.tip_mass;
+  for (auto body = numbers.chain.rbegin(); kind == ParameterKind::kLinkMass && body != numbers.chain.rend(); ++body)
+    if (!body->is_segment) return body->mass;
+  for (ParametricBody<double>& body : numbers.chain)
+    if (body.is_segment) return *numberOf(body, kind);
+  return 0.0;
+}
+
+}  // namespace
+
+std::vector<std::string> sceneParameterNames(const Scene& scene, const ChannelMap& channels) {
+  std::vector<std::string> names;
+  for (const Known& known : kKnown)
+    if (isThere(known, scene)) names.push_back(known.name);
+  for (int channel = 0; channel < channels.channelCount(); ++channel)
+    if (!chambersOfChannel(scene, channels, channel).empty())
+      names.push_back(kAzimuth + std::to_string(channel + 1) + "_deg");
+  return names;
+}
+
+SceneParameter sceneParameter(const std::string& name, const Scene& scene, const ChannelMap& channels) {
+  const std::vector<std::string> names = sceneParameterNames(scene, channels);
+  if (std::find(names.begin(), names.end(), name) == names.end()) {
+    std::string legal;
+    for (const std::string& other : names) legal += (legal.empty() ? "" : ", ") + other;
+    throw ConfigurationError("parameters", {"'" + name + "' is none that this scene has: must be one of " + legal});
+  }
+  SceneParameter parameter;
+  parameter.name = name;
+  if (name.compare(0, kAzimuth.size(), kAzimuth) == 0) {
+    parameter.kind = ParameterKind::kChannelAzimuth;
+    parameter.chambers = chambersOfChannel(scene, channels, std::stoi(name.substr(kAzimuth.size())) - 1);
+    const std::vector<double>& azimuths = firstSegment(scene).section.chambers.azimuths;
+    double x = 0.0, y = 0.0;
+    for (int chamber : parameter.chambers) {
+      x += std::cos(azimuths[chamber]);
+      y += std::sin(azimuths[chamber]);
+    }
+    parameter.start = std::atan2(y, x);
+    parameter.prior_sigma = kAzimuthSigma;
+    parameter.low = parameter.start - kAzimuthReach;
+    parameter.high = parameter.start + kAzimuthReach;
+    parameter.unit = kDegree;
+  } else {
+    const Known& known = *std::find_if(std::begin(kKnown), std::end(kKnown),
+                                       [&](const Known& entry) { return name == entry.name; });
+    parameter.kind = known.kind;
+    parameter.start = valueIn(scene, known.kind);
+    parameter.prior_sigma = std::max(known.share * std::abs(parameter.start), known.least);
+    parameter.low = known.low;
+    parameter.high = known.high;
+    parameter.unit = known.unit;
+    // What a chamber or pitch radius may be is bounded by the tube around it; a micrometre short of it, so that a
+    // value at its bound still reads back as legal.
+    constexpr double kMargin = 1e-6;
+    const CrossSection& section = firstSegment(scene).section;
+    const double inner = section.lumen_radius, outer = section.outer_radius;
+    const double pitch = section.chambers.pitch_radius, radius = section.chambers.radius;
+    if (known.kind == ParameterKind::kPitchRadius) {
+      parameter.low = inner + radius + kMargin;
+      parameter.high = outer - radius - kMargin;
+    }
+    if (known.kind == ParameterKind::kChamberRadius) {
+      parameter.low = 0.5 * radius;
+      parameter.high = std::min(pitch - inner, outer - pitch) - kMargin;
+    }
+  }
+  parameter.prior_mean = parameter.start;
+  return parameter;
+}
+
+Scene withParameters(const Scene& scene, const std::vector<SceneParameter>& parameters, const Eigen::VectorXd& values) {
+  ParametricScene<double> numbers = castScene<double>(scene);
+  for (size_t k = 0; k < parameters.size(); ++k) setParameter(numbers, parameters[k], values[static_cast<long>(k)]);
+  Scene result = scene;
+  for (size_t k = 0; k < result.chain.size(); ++k) {
+    if (auto* segment = std::get_if<Segment>(&result.chain[k])) {
+      segment->length = numbers.chain[k].length;
+      segment->section = numbers.chain[k].section;
+    } else {
+      std::get<Link>(result.chain[k]).mass = numbers.chain[k].mass;
+    }
+  }
+  result.tip_mass = numbers.tip_mass;
+  return result;
+}
+
+}  // namespace live_stiffness

@@ -1,0 +1,225 @@
+// calibrate SCENE.yaml RECORDING...: fits chosen parameters of a scene, and where base and sensor are, to recordings
+// and to tables of measured compliance. Needs no ROS; built with it, it reads bags too.
+
+#include <boost/program_options.hpp>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "any_recording.h"
+#include "live_stiffness/calibration/calibration.h"
+#include "live_stiffness/calibration/calibration_report.h"
+#include "live_stiffness/calibration/scene_text.h"
+#include "live_stiffness/checks.h"
+#include "live_stiffness/rod/scene_file.h"
+#include "progress_bar.h"
+
+namespace po = boost::program_options;
+using namespace live_stiffness;
+
+namespace {
+
+constexpr int kExitOk = 0, kExitNotConverged = 1, kExitUsage = 2;
+
+const char* const kHelp =
+    "calibrate SCENE.yaml [RECORDING.csv|.bag ...] [--compliance-table TABLE.csv ...] [--parameters NAME ...]\n\n"
+    "Fits parameters of the scene, and the registration of each recording (base in tracker, sensor on tip), together.\n"
+    "Prints estimates with standard errors, what the data cannot tell apart, and errors with blocks left out.\n"
+    "`--parameters none` registers only. `--list` prints the parameters that the scene has.\n\n";
+
+struct Arguments {
+  std::string scene, output, registration, residuals, model, stepping, samples = "all", loads = "ignore", rows;
+  std::vector<std::string> recordings, tables, parameters{"youngs_modulus_pa", "chamber_pitch_radius_m", "length_m"};
+  std::vector<std::string> priors, bounds;
+  int channels = 0;
+  double position_mm = 0.5, rotation_deg = 1.0, compliance = 0.05, correlation = 1.0, huber = 2.0;
+  double sensor_azimuth_deg = 0.0, sensor_height = 0.0, sensor_sign = 1.0;
+  int blocks = 8;
+  bool no_orientation = false, no_priors = false, list = false, quiet = false;
+};
+
+po::options_description describe(Arguments& a) {
+  po::options_description options("Options");
+  options.add_options()
+    ("help,h", "print this and exit")
+    ("scene", po::value(&a.scene)->required(), "scene file; its values are the start and the priors' means")
+    ("recordings", po::value(&a.recordings)->composing(), "CSV recordings (or bags)")
+    ("compliance-table", po::value(&a.tables)->composing(),
+     "CSV of measured compliances: pressure_K_pa per chamber, c11_m_per_n to c33_m_per_n")
+    ("parameters,p", po::value(&a.parameters)->multitoken(), "names of parameters to fit, or none")
+    ("list", po::bool_switch(&a.list), "print the scene's parameters with priors and bounds, and exit")
+    ("prior", po::value(&a.priors)->composing(), "NAME=MEAN:SIGMA, in the parameter's unit")
+    ("bounds", po::value(&a.bounds)->composing(), "NAME=LOW:HIGH, in the parameter's unit")
+    ("no-priors", po::bool_switch(&a.no_priors), "let the data decide alone, within the bounds")
+    ("samples", po::value(&a.samples)->default_value(a.samples), "all, or quasi_static")
+    ("loads", po::value(&a.loads)->default_value(a.loads),
+     "samples under contact: ignore; predict (with the force sensor's wrench, not fitted); or fit")
+    ("force-sensor-azimuth-deg", po::value(&a.sensor_azimuth_deg)->default_value(0.0), "turn of the sensor about z of T")
+    ("force-sensor-height-m", po::value(&a.sensor_height)->default_value(0.0), "its origin above T")
+    ("force-sensor-sign", po::value(&a.sensor_sign)->default_value(1.0), "1: reports what acts on the robot; -1: the opposite")
+    ("channels", po::value(&a.channels), "pressure channels (default: those of the recording)")
+    ("model", po::value(&a.model), "lpcc, npcc, lcm or ncm")
+    ("stepping", po::value(&a.stepping), "fixed_step, continuous or linear")
+    ("position-sigma-mm", po::value(&a.position_mm)->default_value(0.5), "first guess of model and tracker error")
+    ("rotation-sigma-deg", po::value(&a.rotation_deg)->default_value(1.0), "the same")
+    ("no-orientation", po::bool_switch(&a.no_orientation), "fit positions only")
+    ("compliance-sigma", po::value(&a.compliance)->default_value(0.05), "of measured compliances, relative")
+    ("correlation-time-s", po::value(&a.correlation)->default_value(1.0), "samples nearer than this share their error")
+    ("huber", po::value(&a.huber)->default_value(2.0), "residuals beyond so many sigmas count linearly only")
+    ("blocks", po::value(&a.blocks)->default_value(8), "of each recording, left out in turn; 0: skip")
+    ("output,o", po::value(&a.output), "write the calibrated scene here")
+    ("registration", po::value(&a.registration), "write the first recording's registration here (the node loads it)")
+    ("residuals", po::value(&a.residuals), "write a CSV of residuals here, for scripts/plot_calibration")
+    ("rows", po::value(&a.rows), "write a CSV of the compliance tables' rows here, measured, fitted and left out")
+    ("quiet,q", po::bool_switch(&a.quiet), "no progress display");
+  return options;
+}
+
+// "NAME=A:B" of one of the parameters, in its unit.
+void readPair(const std::string& text, const std::string& option, std::vector<SceneParameter>& parameters,
+              FaultList& faults, double SceneParameter::*first, double SceneParameter::*second) {
+  const size_t equals = text.find('='), colon = text.find(':');
+  try {
+    if (equals == std::string::npos || colon == std::string::npos) throw std::invalid_argument("form");
+    const std::string name = text.substr(0, equals);
+    for (SceneParameter& parameter : parameters) {
+      if (parameter.name != name) continue;
+      parameter.*first = std::stod(text.substr(equals + 1, colon - equals - 1)) * parameter.unit;
+      parameter.*second = std::stod(text.substr(colon + 1)) * parameter.unit;
+      if (option == "prior" && !(parameter.prior_sigma > 0.0)) faults.add("--prior " + text + ": SIGMA must be > 0");
+      if (option == "bounds" && !(parameter.low < parameter.high))
+        faults.add("--bounds " + text + ": LOW must be below HIGH");
+      return;
+    }
+    faults.add("--" + option + " " + text + ": '" + name + "' is not among --parameters");
+  } catch (const std::exception&) {
+    faults.add("--" + option + " " + text + ": must be NAME=NUMBER:NUMBER");
+  }
+}
+
+std::optional<LoadedSamples> loadsNamed(const std::string& name) {
+  if (name == "ignore") return LoadedSamples::kIgnore;
+  if (name == "predict") return LoadedSamples::kPredict;
+  if (name == "fit") return LoadedSamples::kFit;
+  return std::nullopt;
+}
+
+void write(const std::string& path, const std::string& text) {
+  std::ofstream file(path);
+  file << text;
+  file.close();
+  if (!file) throw ConfigurationError("output " + path, {"cannot be written: is its folder there?"});
+}
+
+ChannelMap channelsFor(const Arguments& a, const std::vector<CalibrationRecording>& recordings, int chambers) {
+  if (a.channels > 0) return ChannelMap::even(a.channels, chambers);
+  return ChannelMap::even(recordings.empty() ? chambers : recordings.front().recording.channelCount(), chambers);
+}
+
+int run(const Arguments& a, const std::string& command) {
+  const Scene scene = loadSceneFile(a.scene);
+  FaultList faults("options");
+  CalibrationOptions options;
+  options.model = namedModelOptions(a.model, a.stepping, faults);
+  if (a.stepping.empty() && options.model.stepping == Stepping::kFixedStep)
+    options.model.stepping = Stepping::kContinuous;
+  if (a.samples != "all" && a.samples != "quasi_static")
+    faults.add("samples '" + a.samples + "': must be all or quasi_static");
+  faults.check("position-sigma-mm", a.position_mm, Range::positive());
+  faults.check("rotation-sigma-deg", a.rotation_deg, Range::positive());
+  faults.check("compliance-sigma", a.compliance, Range::positive());
+  faults.check("correlation-time-s", a.correlation, Range::nonnegative());
+  faults.check("huber", a.huber, Range::positive());
+  faults.check("blocks", a.blocks, {0.0, 1000.0});
+  const auto loads = loadsNamed(a.loads);
+  if (!loads) faults.add("loads '" + a.loads + "': must be ignore, predict or fit");
+  if (a.sensor_sign != 1.0 && a.sensor_sign != -1.0) faults.add("force-sensor-sign: must be 1 or -1");
+  if (a.recordings.empty() && a.tables.empty() && !a.list) faults.add("give recordings, or compliance tables, or both");
+  faults.throwIfAny();
+  options.position_sigma = 1e-3 * a.position_mm;
+  options.rotation_sigma = a.no_orientation ? 0.0 : radians(a.rotation_deg);
+  options.compliance_sigma = a.compliance;
+  options.correlation_time = a.correlation;
+  options.huber = a.huber;
+  options.blocks = a.blocks;
+  options.use_priors = !a.no_priors;
+  options.force_sensor = {radians(a.sensor_azimuth_deg), a.sensor_height, a.sensor_sign};
+
+  std::vector<CalibrationRecording> recordings;
+  for (const std::string& path : a.recordings) {
+    Recording recording = loadAnyRecording(path);
+    recordings.emplace_back(std::move(recording),
+                            a.samples == "all" ? SampleChoice::kAll : SampleChoice::kQuasiStatic, *loads);
+  }
+  const ChannelMap channels = channelsFor(a, recordings, scene.chamberCount());
+  std::vector<SceneParameter> parameters;
+  if (a.list) {
+    for (const std::string& name : sceneParameterNames(scene, channels)) {
+      const SceneParameter p = sceneParameter(name, scene, channels);
+      std::cout << name << ": " << numberText(p.start / p.unit) << " +- " << numberText(p.prior_sigma / p.unit) << ", "
+                << numberText(p.low / p.unit) << " to " << numberText(p.high / p.unit) << "\n";
+    }
+    return kExitOk;
+  }
+  if (!(a.parameters.size() == 1 && a.parameters[0] == "none"))
+    for (const std::string& name : a.parameters) parameters.push_back(sceneParameter(name, scene, channels));
+  for (const std::string& text : a.priors)
+    readPair(text, "prior", parameters, faults, &SceneParameter::prior_mean, &SceneParameter::prior_sigma);
+  for (const std::string& text : a.bounds)
+    readPair(text, "bounds", parameters, faults, &SceneParameter::low, &SceneParameter::high);
+  faults.throwIfAny();
+  std::vector<ComplianceRow> rows;
+  for (const std::string& path : a.tables)
+    for (ComplianceRow& row : loadComplianceTable(path, scene.chamberCount())) rows.push_back(std::move(row));
+
+  std::unique_ptr<ProgressBar> bar;
+  std::string shown;
+  if (!a.quiet)
+    options.progress = [&](const std::string& stage, int done, int total) {
+      if (stage != shown) bar = std::make_unique<ProgressBar>(stage, total);
+      shown = stage;
+      bar->update(done);
+    };
+  const CalibrationResult result = calibrate(scene, channels, parameters, recordings, rows, options);
+  std::cout << reportText(result);
+  const std::string header = sceneHeader(result, command);
+  if (!a.output.empty()) {
+    saveSceneFile(a.output, result.scene, header);
+    loadSceneFile(a.output);  // refuses parameters that are legal alone and do not fit together
+  }
+  if (!a.registration.empty() && !recordings.empty())
+    saveRegistrationFile(a.registration, result.recordings.front().registration, header);
+  if (!a.residuals.empty()) write(a.residuals, residualTable(result, recordings));
+  if (!a.rows.empty()) write(a.rows, complianceTableOf(result));
+  return result.converged ? kExitOk : kExitNotConverged;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments a;
+  const po::options_description options = describe(a);
+  po::positional_options_description positional;
+  positional.add("scene", 1).add("recordings", -1);
+  try {
+    po::variables_map values;
+    po::store(po::command_line_parser(argc, argv)
+                  .options(options)
+                  .positional(positional)
+                  .style(po::command_line_style::default_style & ~po::command_line_style::allow_guessing)
+                  .run(),
+              values);
+    if (values.count("help")) {
+      std::cout << kHelp << options;
+      return kExitOk;
+    }
+    po::notify(values);
+    std::string command = "calibrate";
+    for (int k = 1; k < argc; ++k) command += std::string(" ") + argv[k];
+    return run(a, command);
+  } catch (const std::exception& error) {
+    std::cerr << "calibrate: " << error.what() << "\nSee calibrate --help.\n";
+    return kExitUsage;
+  }
+}

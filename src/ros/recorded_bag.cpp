@@ -1,0 +1,107 @@
+#include "live_stiffness/ros/recorded_bag.h"
+
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "live_stiffness/checks.h"
+
+namespace live_stiffness {
+namespace {
+
+// Messages of the three topics by their stamps.
+struct Tracks {
+  std::map<double, Pressures> pressures;
+  std::map<double, Pose> poses;
+  std::map<double, Wrench> wrenches;
+  int unreadable = 0;
+  std::string fault;  // of the first one
+};
+
+template <class Value, class Result>
+void keep(const Reading<Value>& reading, const ros::Time& recorded, const Result& result,
+          std::map<double, Result>& track, Tracks& tracks) {
+  if (reading.ok()) {
+    track[(reading.stamp.isZero() ? recorded : reading.stamp).toSec()] = result;
+    return;
+  }
+  if (tracks.unreadable++ == 0) tracks.fault = reading.fault;
+}
+
+template <class Value>
+std::optional<Value> newest(const std::map<double, Value>& track, double time) {
+  auto after = track.upper_bound(time);
+  if (after == track.begin()) return std::nullopt;
+  return std::prev(after)->second;
+}
+
+Tracks readTracks(const std::string& path, const PressureFormat& format, double position_unit) {
+  Tracks tracks;
+  rosbag::Bag bag(path, rosbag::bagmode::Read);
+  for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
+    const std::string topic = withoutSlash(message.getTopic());
+    if (topic == "tip_force_torque") {
+      const auto wrench = message.instantiate<geometry_msgs::WrenchStamped>();
+      if (!wrench) continue;
+      const Reading<Wrench> reading = readWrench(*wrench);
+      keep(reading, message.getTime(), reading.value, tracks.wrenches, tracks);
+      continue;
+    }
+    if (topic != "chamber_pressures" && topic != "aurora_pose") continue;
+    const auto any = message.instantiate<topic_tools::ShapeShifter>();
+    if (!any) continue;
+    if (topic == "chamber_pressures") {
+      const Reading<Pressures> reading = readPressures(*any, format);
+      keep(reading, message.getTime(), reading.value, tracks.pressures, tracks);
+    } else {
+      const Reading<TrackedPose> reading = readPose(*any, position_unit);
+      keep(reading, message.getTime(), reading.value.pose, tracks.poses, tracks);
+    }
+  }
+  return tracks;
+}
+
+}  // namespace
+
+Recording loadRecordedBag(const std::string& path, const PressureFormat& format, double position_unit) {
+  Tracks tracks;
+  try {
+    tracks = readTracks(path, format, position_unit);
+  } catch (const rosbag::BagException& error) {
+    throw ConfigurationError("bag " + path, {std::string("cannot be read: ") + error.what()});
+  }
+  Recording recording;
+  recording.name = path;
+  int early = 0;
+  for (const auto& [time, pose] : tracks.poses) {
+    const std::optional<Pressures> pressures = newest(tracks.pressures, time);
+    if (!pressures || (!recording.samples.empty() && pressures->size() != recording.samples.front().pressures.size())) {
+      ++early;
+      continue;
+    }
+    RecordedSample sample;
+    sample.line = static_cast<int>(recording.samples.size()) + 1;
+    sample.time = time - tracks.poses.begin()->first;
+    sample.pressures = *pressures;
+    sample.tip_position = pose.p;
+    sample.tip_orientation = Eigen::Quaterniond(pose.R);
+    if (!recording.samples.empty() && sample.tip_orientation.dot(recording.samples.back().tip_orientation) < 0.0)
+      sample.tip_orientation.coeffs() = -sample.tip_orientation.coeffs();
+    sample.tip_wrench = newest(tracks.wrenches, time);
+    recording.samples.push_back(std::move(sample));
+  }
+  if (tracks.unreadable > 0)
+    recording.warnings.push_back(std::to_string(tracks.unreadable) + " messages left out, the first because: " +
+                                 tracks.fault);
+  if (early > 0)
+    recording.warnings.push_back(std::to_string(early) + " poses left out: no pressures before them, or of another "
+                                 "number");
+  if (recording.samples.empty())
+    throw ConfigurationError("bag " + path, {"no pose on aurora_pose with pressures on chamber_pressures before it"});
+  return recording;
+}
+
+}  // namespace live_stiffness
