@@ -46,7 +46,8 @@ Tracks readTracks(const std::string& path, const PressureFormat& format, double 
     if (topic == "tip_force_torque") {
       const auto wrench = message.instantiate<geometry_msgs::WrenchStamped>();
       if (!wrench) continue;
-      const Reading<Wrench> reading = readWrench(*wrench);
+      const FrameNames own{withoutSlash(wrench->header.frame_id), ""};  // a recording keeps the sensor's axes
+      const Reading<Wrench> reading = readWrench(*wrench, own, nullptr);
       keep(reading, message.getTime(), reading.value, tracks.wrenches, tracks);
       continue;
     }

@@ -1,0 +1,86 @@
+#include "live_stiffness/ros/recorded_bag.h"
+
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "live_stiffness/checks.h"
+#include "support/matrix_near.h"
+
+namespace live_stiffness {
+namespace {
+
+// A bag of its own for each test, taken away again.
+class RecordedBag : public ::testing::Test {
+ protected:
+  RecordedBag()
+      : path_(std::string(::testing::TempDir()) + "recorded_" +
+              ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".bag"),
+        bag_(path_, rosbag::bagmode::Write) {}
+  ~RecordedBag() override { std::remove(path_.c_str()); }
+
+  void pressures(double time, double pressure) {
+    const ros::Time stamp(time);
+    bag_.write("/chamber_pressures", stamp, toPressures(Pressures::Constant(3, pressure), stamp));
+  }
+  void pose(double time, double x) {
+    const ros::Time stamp(time);
+    bag_.write("aurora_pose", stamp, toPoseStamped({Matrix3::Identity(), Vector3(x, 0.0, 0.0)}, stamp, "aurora"));
+  }
+  void wrench(double time, double force, const std::string& frame) {
+    const ros::Time stamp(time);
+    bag_.write("tip_force_torque", stamp, toWrenchStamped(Wrench(force * Wrench::Unit(0)), stamp, frame));
+  }
+  Recording load() {
+    bag_.close();
+    return loadRecordedBag(path_);
+  }
+
+  std::string path_;
+  rosbag::Bag bag_;
+};
+
+TEST_F(RecordedBag, GivesEachPoseTheNewestPressuresAndWrenchBeforeIt) {
+  pressures(10.0, 1e4);
+  wrench(10.1, 0.5, "any_sensor_frame");
+  pose(10.2, 0.1);
+  pressures(10.3, 2e4);
+  wrench(10.3, 0.7, "any_sensor_frame");
+  pose(10.4, 0.2);
+  const Recording recording = load();
+  ASSERT_EQ(recording.samples.size(), 2u);
+  EXPECT_TRUE(recording.warnings.empty());
+  for (int i : {0, 1}) {
+    const RecordedSample& sample = recording.samples[i];
+    EXPECT_NEAR(sample.time, 0.2 * i, 1e-6);
+    EXPECT_TRUE(matrixNear(sample.pressures, Pressures::Constant(3, 1e4 * (i + 1)), 0.0));
+    EXPECT_TRUE(matrixNear(sample.tip_position, Vector3(0.1 * (i + 1), 0.0, 0.0), 0.0));
+    ASSERT_TRUE(sample.tip_wrench.has_value());
+    EXPECT_EQ((*sample.tip_wrench)[0], i == 0 ? 0.5 : 0.7);
+  }
+}
+
+TEST_F(RecordedBag, LeavesOutWhatCannotBeReadAndSaysSo) {
+  pose(9.0, 0.0);  // before any pressures
+  pressures(10.0, 1e4);
+  pose(10.1, std::nan(""));
+  wrench(10.1, std::nan(""), "");
+  pose(10.2, 0.1);
+  const Recording recording = load();
+  ASSERT_EQ(recording.samples.size(), 1u);
+  EXPECT_FALSE(recording.samples[0].tip_wrench.has_value());
+  ASSERT_EQ(recording.warnings.size(), 2u);
+  EXPECT_NE(recording.warnings[0].find("2 messages left out"), std::string::npos) << recording.warnings[0];
+  EXPECT_NE(recording.warnings[1].find("1 poses left out"), std::string::npos) << recording.warnings[1];
+}
+
+TEST_F(RecordedBag, WithoutASampleIsAConfigurationError) {
+  pressures(10.0, 1e4);
+  EXPECT_THROW(load(), ConfigurationError);
+  EXPECT_THROW(loadRecordedBag(path_ + ".missing"), ConfigurationError);
+}
+
+}  // namespace
+}  // namespace live_stiffness
