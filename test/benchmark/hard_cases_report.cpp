@@ -92,7 +92,7 @@ int main(int argc, char** argv) {
   const bool has_draws = argc == 4 && std::string(argv[2]) == "--draws";
   const long draws = has_draws ? std::strtol(argv[3], nullptr, 10) : 1000000;
   if ((argc != 2 && !has_draws) || draws < 0) {
-    std::cerr << "usage: hard_cases_report FOLDER [--draws N]   (default 1000000, which takes an hour or two)\n";
+    std::cerr << "usage: hard_cases_report FOLDER [--draws N]   (default 1000000, which takes a quarter of an hour)\n";
     return 2;
   }
   return live_stiffness::run(argv[1], draws);
