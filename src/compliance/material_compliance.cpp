@@ -81,7 +81,7 @@ void stationsAt(const Backbone& backbone, int segment, const double* fractions, 
     batch.size = 0;
   };
   for (size_t i = 0; i < size; ++i) {
-    const double along = std::clamp(fractions[i], 0.0, 1.0) * count;
+    const double along = fractions[i] > 0.0 ? std::min(fractions[i], 1.0) * count : 0.0;  // NaN: the base
     const int k = std::min(static_cast<int>(along), count - 1);
     const double fraction = along - k;
     out[i].stretch = stretch;

@@ -236,8 +236,12 @@ struct ChainPasses {
         chain, [&](const Vector& piece, const Vector&) { at.cross(piece, kNothing); },
         [&](ElementState& e, bool) {
           at.enter(e);
+          const double bending = e.length * e.length * squaredNorm(e.rest_curvature);
+          if (!(bending <= kMaxUnloadedBending * kMaxUnloadedBending)) error += 1.0;  // the series are no good there
           if (bendsAsArc(e)) {
             placeArc(e);
+            const Lanes3 g = cayleyOfRotation(splat(e.length) * splat(e.rest_curvature));
+            e.g[0][kStages] = g.x[0], e.g[1][kStages] = g.y[0], e.g[2][kStages] = g.z[0];
           } else {
             S::placeUnloaded(e);
             M::material(e, true, accuracy);

@@ -82,7 +82,10 @@ inline void placeArc(ElementState& e) {
   const Lanes R[9] = {arc.R.x.x, arc.R.y.x, arc.R.z.x, arc.R.x.y, arc.R.y.y,
                       arc.R.z.y, arc.R.x.z, arc.R.y.z, arc.R.z.z};
   for (int i = 0; i < 9; ++i) e.R_end[i] = R[i][0];
-  for (int i = 0; i < 3; ++i) e.offset_end[i] = arc.r[i][0];
+  for (int i = 0; i < 3; ++i) {
+    e.offset_end[i] = arc.r[i][0];
+    e.n_end[i] = e.m_end[i] = 0.0;
+  }
   for (int i = 0; i < kPackedSize; ++i) e.compliance[i] = arc.compliance[i][0];
   e.is_arc = e.unloaded = true;
   e.compliance_error = e.station_error = 0.0;

@@ -178,6 +178,7 @@ struct Columns : Collocation<kStages> {
       last_change = change;
     }
     reset(e, start);
+    end = start;
     return __builtin_inf();
   }
 

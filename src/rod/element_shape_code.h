@@ -147,13 +147,13 @@ struct Shape : Collocation<kStages> {
     }
   }
 
-  // Goes on by `steadiness` times the last change.
+  // Goes on by `steadiness` times the last change; without it only keeps what there is, whatever was before.
   template <int n>
   static LIVE_STIFFNESS_INLINE void extrapolate(double steadiness, StageRow (&now)[n], StageRow (&before)[n]) {
     for (int k = 0; k < n; ++k)
       for (int v = 0; v < kVectors; ++v) {
         const Lanes x = load(now[k], v);
-        store(now[k], v, x + steadiness * (x - load(before[k], v)));
+        if (steadiness != 0.0) store(now[k], v, x + steadiness * (x - load(before[k], v)));
         store(before[k], v, x);
       }
   }
@@ -161,7 +161,7 @@ struct Shape : Collocation<kStages> {
   static void predict(ElementState& e, const double (&turn)[3], double steadiness, bool with_columns) {
     extrapolate(steadiness, e.g, e.g_before);
     for (int i = 0; i < 3; ++i) {
-      const double more = turn[i] - steadiness * e.turn[i];
+      const double more = steadiness != 0.0 ? turn[i] - steadiness * e.turn[i] : turn[i];
       for (int v = 0; v < kVectors; ++v) store(e.g[i], v, load(e.g[i], v) + more * load(table().c, v));
       e.turn[i] = turn[i];
     }

@@ -53,8 +53,8 @@ double steadinessOf(const Chain& chain, const Backbone& backbone) {
 
 }  // namespace
 
-double prepare(const Chain& chain, const DeadLoads& loads, Backbone& backbone, History history) {
-  const double steadiness = history == History::kNone ? 0.0 : steadinessOf(chain, backbone);
+double prepare(const Chain& chain, const DeadLoads& loads, Backbone& backbone, History keep, bool extrapolate) {
+  const double steadiness = extrapolate ? steadinessOf(chain, backbone) : 0.0;
   auto element = backbone.elements.begin();
   for (const Chain::Part& part : chain.parts) {
     if (part.segment < 0) continue;
@@ -64,7 +64,7 @@ double prepare(const Chain& chain, const DeadLoads& loads, Backbone& backbone, H
     for (int k = 0; k < count; ++k, ++element) {
       ElementState& e = element->state;
       const Vector3 turn = turnOf(e, own_length, rest);
-      backbone.passes->predict(e, {turn.x(), turn.y(), turn.z()}, steadiness, history == History::kColumns);
+      backbone.passes->predict(e, {turn.x(), turn.y(), turn.z()}, steadiness, keep == History::kColumns);
       e.length = own_length;
       e.start = k * own_length;
       element->setSection(rest);

@@ -20,6 +20,7 @@ constexpr double kRoughColumns = 1e-2;      // relative error, enough for sweeps
 constexpr double kFineColumns = 1e-12;      // for Newton steps where the residual is nearly singular, or huge
 constexpr double kMostAmplification = 1e6;
 constexpr int kMaxSweeps = 40;
+constexpr double kQuickestRate = 0.01;      // and no better than this
 constexpr double kSlowestRate = 0.2;        // at which sweeps may be counted on to converge
 
 }  // namespace
@@ -79,15 +80,16 @@ bool StaticsSolver::quick(const DeadLoads& loads, bool has_inverse, int max_swee
     base_moment_ += step;
     for (int k = 0; k < 3; ++k) chain.base_moment[k] = base_moment_[k];
     if (has_inverse) backbone.passes->follow_all(chain, {step.x(), step.y(), step.z()});
-    // A single sweep shows no rate: then that of the last solve with several counts.
-    if (i > 0) rate_ = std::min(kSlowestRate, error / last);
+    // A single sweep shows no rate: then that of the last solve counts, but not one that was quick by luck.
+    if (i > 0) rate_ = std::max(kQuickestRate, std::min(kSlowestRate, error / last));  // 0 / 0: the slowest
+    const double rate = i > 0 ? rate_ : std::max(rate_, 0.5 * kSlowestRate);
     const bool at_rounding = error <= kRounding && error > 0.3 * last;
-    report.iteration = at_rounding ? error : rate_ * error;
+    report.iteration = at_rounding ? error : rate * error;
     last = error;
     if (!has_inverse || (report.iteration > goal && !at_rounding)) continue;
     backbone.passes->sweep(chain, Pass::kShape, s);
     report.residual = bendingOf(Vector3(s.residual));
-    if (report.residual > goal && !at_rounding) continue;
+    if (!(report.residual <= goal) && !at_rounding) continue;
     backbone.setTip(s.R_tip, s.p_tip);
     return true;
   }
@@ -181,6 +183,8 @@ void StaticsSolver::placeFresh(const DeadLoads& loads, Backbone& backbone) {
 void StaticsSolver::prepareUnloaded(Backbone& backbone) {
   warm_ = has_columns_ = false;
   solutions_ = 0;
+  amplification_ = 1.0;
+  rate_ = kSlowestRate;
   discretisation_.chooseUnloaded(backbone);
   prepare(chain_, DeadLoads(), backbone);
 }
@@ -190,7 +194,9 @@ void StaticsSolver::prepareUnloaded(Backbone& backbone) {
 void StaticsSolver::goOn(const DeadLoads& loads, Backbone& backbone) {
   constexpr double kOnePass = 1e-4;
   const History known = accuracy_ < kOnePass && has_columns_ ? History::kColumns : History::kShape;
-  const double steadiness = prepare(chain_, loads, backbone, solutions_ >= 2 ? known : History::kNone);
+  const bool has_history = solutions_ >= 2 && known == history_;
+  const double steadiness = prepare(chain_, loads, backbone, known, has_history);
+  history_ = known;
   const Vector3 last = base_moment_;
   base_moment_ += steadiness * (last - moment_before_);
   moment_before_ = last;
@@ -282,8 +288,7 @@ void StaticsSolver::polish(const DeadLoads& loads, Backbone& backbone, StaticsRe
     Vector3 residual;
     base_moment_ = before;
     forgetGuesses(loads, backbone);
-    march(loads, before, backbone, residual);
-    findTangent(loads, backbone, report);
+    report.stable = march(loads, before, backbone, residual) && findTangent(loads, backbone, report);
   }
   report.iterations += finer.iterations;
 }

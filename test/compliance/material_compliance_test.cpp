@@ -142,5 +142,19 @@ TEST(PlaceUnloaded, ArcsEqualQuadratureOfTheSameElements) {
   }
 }
 
+// An arc before an element of another kind: nothing of the loads may be left in it.
+TEST(PlaceUnloaded, DoesNotRememberTheLoadsOfTheSolveBefore) {
+  Scene scene = weightlessPaperScene(2);
+  segmentOf(scene, 1).section.chambers.azimuths = {0.0, 0.3, 1.5, 1.9, 2.6, 3.0};
+  const StiffnessModel model(scene, accurateTo(1e-9));
+  StiffnessWorkspace workspace = model.makeWorkspace();
+  const Pressures pressures = bars(0.5, {0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 0, 0});
+  const StiffnessSolution before = model.solve(pressures, Wrench::Zero(), workspace);
+  ASSERT_TRUE(model.solve(pressures, 0.2 * Wrench::Unit(0), workspace).status.ok());
+  const StiffnessSolution after = model.solve(pressures, Wrench::Zero(), workspace);
+  ASSERT_TRUE(before.status.ok() && after.status.ok());
+  EXPECT_TRUE(matrixNear(after.compliance, before.compliance, 0.0));
+}
+
 }  // namespace
 }  // namespace live_stiffness

@@ -252,5 +252,36 @@ TEST(WarmStart, TakesFewerSweepsWhereThePressuresGoOnAsBefore) {
   EXPECT_LT(sweeps(true), sweeps(false));
 }
 
+// A first solve that converges at once must not vouch for the next one.
+TEST(WarmStart, FollowsAMomentThatGrowsFromNothing) {
+  for (double accuracy : {1e-4, 1e-6, 1e-9}) {
+    const StiffnessModel model(weightlessPaperScene(1), accurateTo(accuracy));
+    StiffnessWorkspace workspace = model.makeWorkspace();
+    const Pressures none = Pressures::Zero(6);
+    for (double moment : {1e-8, 1e-8, 3e-3, 1e-8, 8e-3}) {
+      Wrench wrench = Wrench::Zero();
+      wrench[4] = moment;
+      const StiffnessSolution warm = model.solve(none, wrench, workspace), cold = solveCold(model, none, wrench);
+      ASSERT_TRUE(warm.status.ok() && cold.status.ok());
+      EXPECT_LT(poseError(warm.X_BT, cold.X_BT, 0.04), 2.0 * accuracy) << moment << " at " << accuracy;
+      EXPECT_LT(complianceError(warm.compliance, cold.compliance, 0.04), 2.0 * accuracy) << moment << " at " << accuracy;
+    }
+  }
+}
+
+TEST(WarmStart, ForgetsLoadsBeyondAllBounds) {
+  for (double absurd : {1e100, 1e155, 1e300}) {
+    const StiffnessModel model(paperScene(1), accurateTo(1e-9));
+    StiffnessWorkspace workspace = model.makeWorkspace();
+    const Pressures pressures = bars(0.5, {1, 1, 0, 0, 0, 0});
+    const StiffnessSolution before = model.solve(pressures, kTipForce, workspace);
+    ASSERT_TRUE(before.status.ok());
+    EXPECT_FALSE(model.solve(pressures, absurd * Wrench::Unit(0), workspace).status.ok());
+    const StiffnessSolution after = model.solve(pressures, kTipForce, workspace);
+    ASSERT_TRUE(after.status.ok()) << absurd;
+    EXPECT_LT(poseError(after.X_BT, before.X_BT, 0.04), 1e-8);
+  }
+}
+
 }  // namespace
 }  // namespace live_stiffness

@@ -15,18 +15,19 @@ struct Sweep {
 // Chain, loads and elements as plain data; the backbone's elements are what it refers to.
 ChainState stateOf(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, Backbone& backbone);
 
-// Whether a solve may go on from the last change of its solution.
+// What a solve keeps of the solution that it starts from, so that the next one can go on from its change.
 enum class History {
-  kNone,     // there are not two solutions of these elements yet
+  kNone,
   kShape,
   kColumns,  // both
 };
 
 // Gives the elements (as many as element_count says) their lengths, sections and loads, and lets the guess that they
-// hold follow the change of rest curvature; once before sweeps. Returns how far that change goes on as the last one did
-// (1: the same; -1: back again; 0 if it does not, or without history), by which shape and columns have been
-// extrapolated.
-double prepare(const Chain& chain, const DeadLoads& loads, Backbone& backbone, History history = History::kNone);
+// hold follow the change of rest curvature; once before sweeps. extrapolate: the same history was kept the last time,
+// too, of these elements. Returns how far the change goes on as the last one did (1: the same; -1: back again; 0 if it
+// does not, or may not), by which shape and columns have been extrapolated.
+double prepare(const Chain& chain, const DeadLoads& loads, Backbone& backbone, History keep = History::kNone,
+               bool extrapolate = false);
 
 // One sweep over all elements, from base to tip, under a base moment.
 Sweep sweep(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, Pass pass, Backbone& backbone);

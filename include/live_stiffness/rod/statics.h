@@ -81,6 +81,7 @@ class StaticsSolver {
   double softness_ = 0.0;      // L c_bt of the softest segment, rad / (N m)
   double stiffest_ = 0.0;      // rotation of the tip by a unit moment about its stiffest axis, unloaded, rad / (N m)
   double amplification_ = 1.0; // see StaticsReport, of the last solve
+  History history_ = History::kNone;  // what the last warm solve kept
   long solutions_ = 0;         // so far, one after the other on the same elements
   double rate_;                // at which the last sweeps converged
   bool warm_ = false;          // base moment and inverse are those of a solution
