@@ -68,8 +68,8 @@ struct ElementState {
   double column_change;      // of the last pass, relative
   double column_truncation;  // square of the highest Legendre coefficient of their rate, as it turns the end, relative
 
-  // Material compliance of the element about its start, and what stations() needs. Filled by placeArc(), from which it
-  // is exact, or by material(), on a Gauss grid of its own: one row a node.
+  // Material compliance of the element about its start, and what stations() needs. Filled by placeArc(), exact up to
+  // kMaxUnloadedBending, which sets no nodes but the end; or by material(), on a Gauss grid of its own: one row a node.
   PackedRow compliance;
   bool is_arc, unloaded;
   int dense_nodes;
