@@ -301,6 +301,28 @@ void fillDeflection(const DeflectionCheck& check, PredictDeflection::Response& r
   response.exponential_rotation_error = check.exponential_error.rotation;
 }
 
+void fillRegistration(const LiveRegistration& result, Register::Response& response) {
+  const RegistrationFit& fit = result.fit;
+  response.fitted = true;
+  response.base_in_tracker = toPose(fit.registration.X_AB);
+  response.sensor_on_tip = toPose(fit.registration.X_TS);
+  response.base_rotation_determined = fit.base_rotation_determined;
+  response.sensor_offset_determined = fit.sensor_offset_determined;
+  response.weakest_sensitivity = fit.weakest_sensitivity;
+  response.advice = fit.advice();
+  response.samples = result.used;
+  response.outliers = result.outliers;
+  response.span = result.span;
+  response.position_mean = fit.position.mean;
+  response.position_rms = fit.position.rms;
+  response.position_p95 = fit.position.p95;
+  response.position_max = fit.position.max;
+  response.rotation_mean = fit.rotation.mean;
+  response.rotation_rms = fit.rotation.rms;
+  response.rotation_p95 = fit.rotation.p95;
+  response.rotation_max = fit.rotation.max;
+}
+
 geometry_msgs::Twist toTwist(const Twist& twist) {
   geometry_msgs::Twist message;
   message.linear = toVector(linear(twist));

@@ -47,6 +47,8 @@ void readTracker(ParameterReader& read, NodeParameters& parameters) {
   parameters.tip_wrench_timeout =
       read.number("tip_wrench_timeout_s", parameters.tip_wrench_timeout, Range::nonnegative());
   parameters.registration = read.file<Registration>("registration_file", loadRegistrationFile, false);
+  parameters.registration_file = read.text("registration_file", "");
+  parameters.registration_buffer = read.number("registration_buffer_s", parameters.registration_buffer, {1.0, 3600.0});
 }
 
 void readDisplay(ParameterReader& read, NodeParameters& parameters, FaultList& faults) {

@@ -27,8 +27,10 @@ StiffnessNode::StiffnessNode(const ros::NodeHandle& node, const ros::NodeHandle&
           [this](const Pressures& pressures, const ros::Time& stamp) { onPressures(pressures, stamp); },
           [this](const std::string& fault) { input_fault_ = fault; }),
       tracker_input_(node, parameters_,
-                     [this](const Pose& X_BT, const ros::Time& stamp) { onMeasuredTip(X_BT, stamp); }),
-      services_(private_node, estimator_.model(), parameters_.frames, [this] { return newest(); }) {
+                     [this](const Pose& X_AS, const Pose& X_BT, const ros::Time& stamp) { onTracked(X_AS, X_BT, stamp); }),
+      services_(private_node, estimator_.model(), parameters_.frames, [this] { return newest(); }),
+      registration_(private_node, estimator_.model(), parameters_,
+                    [this](const Registration& registration) { parameters_.registration = registration; }) {
   marker_style_.frame = parameters_.frames.base;
   marker_style_.ellipsoid_scale = parameters_.ellipsoid_scale;
   estimate_publisher_ = private_node_.advertise<StiffnessEstimate>("estimate", 10);
@@ -36,8 +38,6 @@ StiffnessNode::StiffnessNode(const ros::NodeHandle& node, const ros::NodeHandle&
   wrench_publisher_ = private_node_.advertise<geometry_msgs::WrenchStamped>("tip_wrench_estimate", 10);
   backbone_publisher_ = private_node_.advertise<nav_msgs::Path>("backbone", 1);
   marker_publisher_ = private_node_.advertise<visualization_msgs::MarkerArray>("markers", 1);
-  static_tf_broadcaster_.sendTransform(
-      toTransform(parameters_.registration.X_AB, ros::Time::now(), parameters_.tracker_frame, parameters_.frames.base));
   diagnostics_.setHardwareID("live_stiffness");
   diagnostics_.add("Pressures", &pressure_input_, &PressureInput::diagnose);
   diagnostics_.add("Tracker", this, &StiffnessNode::diagnoseTracker);
@@ -57,6 +57,7 @@ StiffnessNode::StiffnessNode(const ros::NodeHandle& node, const ros::NodeHandle&
 void StiffnessNode::onPressures(const Pressures& pressures, const ros::Time& stamp) {
   pressure_stamp_ = stamp;
   input_fault_.clear();
+  registration_.addPressures(pressures, stamp);
   react(estimator_.setPressures(pressures));
 }
 
@@ -85,7 +86,8 @@ void StiffnessNode::onHeartbeat(const ros::TimerEvent&) {
   else react(estimator_.solve());
 }
 
-void StiffnessNode::onMeasuredTip(const Pose& measured_X_BT, const ros::Time& stamp) {
+void StiffnessNode::onTracked(const Pose& X_AS, const Pose& measured_X_BT, const ros::Time& stamp) {
+  registration_.addPose(X_AS, estimator_.tipWrench(), false, stamp);
   if (estimator_.estimate() == nullptr || isStale()) return;
   const Estimate& estimate = *estimator_.estimate();
   const Twist residual = residualTwist(measured_X_BT, estimate.solution.X_BT);

@@ -52,11 +52,10 @@ void TrackerInput::take(const Reading<TrackedPose>& reading) {
   const Pose& X_AS = reading.value.pose;
   if (!watch_.everAccepted() || X_AS.p != X_AS_.p || X_AS.R != X_AS_.R) last_change_ = now;
   X_AS_ = X_AS;
-  const Registration& registration = parameters_.registration;
-  X_BT_ = registration.X_AB.inverse() * X_AS * registration.X_TS.inverse();
+  X_BT_ = parameters_.registration.tipPose(X_AS);
   const ros::Time stamp = watch_.stampFor(reading.stamp, now);
   watch_.accept(now);
-  on_tip_(X_BT_, stamp);
+  on_tip_(X_AS, X_BT_, stamp);
 }
 
 std::optional<Pose> TrackerInput::freshTip() const {

@@ -7,6 +7,7 @@
 #include <live_stiffness/ChamberPressures.h>
 #include <live_stiffness/PlatformEstimate.h>
 #include <live_stiffness/PredictDeflection.h>
+#include <live_stiffness/Register.h>
 #include <live_stiffness/StiffnessEstimate.h>
 #include <live_stiffness/TrackingError.h>
 #include <nav_msgs/Path.h>
@@ -18,6 +19,7 @@
 #include "live_stiffness/analysis/deflection.h"
 #include "live_stiffness/checks.h"
 #include "live_stiffness/estimation/parallel_estimator.h"
+#include "live_stiffness/estimation/registration_buffer.h"
 #include "live_stiffness/estimation/stiffness_estimator.h"
 
 namespace live_stiffness {
@@ -96,6 +98,9 @@ StiffnessEstimate toEstimate(const Estimate& estimate, const ros::Time& stamp, c
 PlatformEstimate toEstimate(const ParallelEstimate& estimate, const ros::Time& stamp, const std::string& frame);
 // The deflection, as far as it was found; success, message, stale and header stay.
 void fillDeflection(const DeflectionCheck& check, PredictDeflection::Response& response);
+
+// A fit; success, message, applied and saved_to stay.
+void fillRegistration(const LiveRegistration& result, Register::Response& response);
 
 // A 6x6 matrix, row by row.
 template <class Array>

@@ -31,7 +31,9 @@ struct NodeParameters {
   std::string sensor_frame;     // the tracker's name of the sensor, also accepted as frame_id
   std::string tracker_tf_frame;  // look the sensor up in tf under this name instead of a topic; empty: topic
   double pose_timeout = 1.0;    // s
-  Registration registration;
+  Registration registration;          // in use: loaded, until ~register applies another one
+  std::string registration_file;      // that it was loaded from; empty: none
+  double registration_buffer = 120.0;  // s of the past that ~register can use
   double tip_wrench_timeout = 1.0;  // s; 0: keep the last one for ever
 
   FrameNames frames;  // B, and T as predicted

@@ -18,7 +18,8 @@ namespace live_stiffness {
 
 class TrackerInput {
  public:
-  using OnTip = std::function<void(const Pose& measured_X_BT, const ros::Time& stamp)>;
+  // X_AS: of the sensor, as the tracker gives it; measured_X_BT: of the tip, by the registration.
+  using OnTip = std::function<void(const Pose& X_AS, const Pose& measured_X_BT, const ros::Time& stamp)>;
 
   // Calls on_tip with each usable measurement. parameters must outlive the input.
   TrackerInput(ros::NodeHandle node, const NodeParameters& parameters, OnTip on_tip);
