@@ -54,7 +54,11 @@ RegistrationFit fitWithoutOutliers(std::vector<Pose>& X_BT, std::vector<Pose>& X
 }  // namespace
 
 RegistrationBuffer::RegistrationBuffer(const StiffnessModel& model, double capacity, double largest_gap)
-    : model_(model), capacity_(capacity), spacing_(capacity / kMost), largest_gap_(largest_gap), creep_(model.scene()) {}
+    : model_(model),
+      capacity_(capacity),
+      spacing_(capacity / kMost),
+      largest_gap_(largest_gap),
+      creep_(model.scene()) {}
 
 void RegistrationBuffer::forgetAll() {
   actuations_.clear();
@@ -138,11 +142,11 @@ LiveRegistration RegistrationBuffer::fit(const RegistrationWindow& window) const
     std::string why = std::to_string(result.used) + " usable samples" + span + ": must be at least " +
                       std::to_string(kFewest);
     if (left < kFewest && untouched >= kFewest)
-      why += "; the other " + std::to_string(untouched - left) + " are not quasi-static: hold the pressures still for " +
-             "some seconds in several bent poses, or do without quasi_static_only";
+      why += "; the other " + std::to_string(untouched - left) + " are not quasi-static: hold the pressures still " +
+             "for some seconds in several bent poses, or do without quasi_static_only";
     else if (untouched < kFewest && result.poses >= kFewest)
-      why += "; the other " + std::to_string(result.poses - untouched) + " were taken in contact: leave the tip alone, " +
-             "or do without leave_out_contact";
+      why += "; the other " + std::to_string(result.poses - untouched) + " were taken in contact: leave the tip " +
+             "alone, or do without leave_out_contact";
     else why += "; let the robot move for a while first, or ask for a longer duration";
     return refused(result, why);
   }
@@ -156,8 +160,8 @@ std::string LiveRegistration::text() const {
   std::snprintf(angle, sizeof angle, "mean %.2f, RMS %.2f, max %.2f deg", degrees(fit.rotation.mean),
                 degrees(fit.rotation.rms), degrees(fit.rotation.max));
   std::string text = std::to_string(used) + " samples over " + numberText(span) + " s, " + std::to_string(outliers) +
-                     " outliers left out\ntip error after registration: " + millimetreText(fit.position) + "\nrotation: " +
-                     angle + "\n";
+                     " outliers left out\ntip error after registration: " + millimetreText(fit.position) +
+                     "\nrotation: " + angle + "\n";
   return text + (fit.determined() ? "determined by the motion" : "NOT determined: " + fit.advice());
 }
 

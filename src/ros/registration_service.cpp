@@ -67,8 +67,9 @@ bool RegistrationService::answer(Register::Request& request, Register::Response&
     response.message += "; applied";
   }
   if (wants_file)
-    response.success = save(request.file.empty() ? parameters_.registration_file : request.file,
-                            result.fit.registration, "Fitted by ~register of stiffness_node:\n" + result.text(), response);
+    response.success =
+        save(request.file.empty() ? parameters_.registration_file : request.file, result.fit.registration,
+             "Fitted by ~register of stiffness_node:\n" + result.text(), response);
   ROS_INFO_STREAM("registration: " << response.message);
   return true;
 }

@@ -27,7 +27,9 @@ StiffnessNode::StiffnessNode(const ros::NodeHandle& node, const ros::NodeHandle&
           [this](const Pressures& pressures, const ros::Time& stamp) { onPressures(pressures, stamp); },
           [this](const std::string& fault) { input_fault_ = fault; }),
       tracker_input_(node, parameters_,
-                     [this](const Pose& X_AS, const Pose& X_BT, const ros::Time& stamp) { onTracked(X_AS, X_BT, stamp); }),
+                     [this](const Pose& X_AS, const Pose& measured_X_BT, const ros::Time& stamp) {
+                       onTracked(X_AS, measured_X_BT, stamp);
+                     }),
       services_(private_node, estimator_.model(), parameters_.frames, [this] { return newest(); }),
       registration_(private_node, estimator_.model(), parameters_,
                     [this](const Registration& registration) { parameters_.registration = registration; }) {

@@ -41,8 +41,10 @@ class RegistrationBufferTest : public ::testing::Test {
   }
 
   static double distance(const Registration& a, const Registration& b) {
-    return (a.X_AB.p - b.X_AB.p).norm() + (a.X_TS.p - b.X_TS.p).norm() + logSo3(a.X_AB.R.transpose() * b.X_AB.R).norm() +
-           logSo3(a.X_TS.R.transpose() * b.X_TS.R).norm();
+    const auto apart = [](const Pose& X, const Pose& Y) {  // m and rad
+      return (X.p - Y.p).norm() + logSo3(X.R.transpose() * Y.R).norm();
+    };
+    return apart(a.X_AB, b.X_AB) + apart(a.X_TS, b.X_TS);
   }
 
   StiffnessModel model_{scene(), continuous()};
