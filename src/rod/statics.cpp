@@ -255,10 +255,14 @@ class StaticsSolver::Finder : public EquilibriumFinder {
  private:
   // From the shape and the columns of the loads before, or from the base moment that fewer elements have led to.
   bool settleQuickly(const DeadLoads& loads, const Vector3& base_moment, bool refined) {
-    constexpr int kFewSweeps = 12;
-    constexpr double kFarFromBuckling = 4.0;  // amplification
+    // Of rods that the loads bend little sweeps converge surely. Under more load a base moment must be known to more
+    // digits than they give, and Newton's method is not to be kept waiting.
+    constexpr double kLittle = 3.0;  // load number
+    const bool is_little = loadNumber(solver_.chain_, loads, backbone_) < kLittle;
+    const int few_sweeps = is_little ? 30 : 12;
+    const double far_from_buckling = is_little ? 8.0 : 4.0;  // amplification
     const bool has_columns = solver_.nodes_hold_guess_ && solver_.has_columns_;
-    if (!(has_columns || refined) || solver_.amplification_ > kFarFromBuckling) return false;
+    if (!(has_columns || refined) || solver_.amplification_ > far_from_buckling) return false;
     if (has_columns) {
       const Vector3 step = base_moment - solver_.base_moment_;
       const ChainState chain = stateOf(solver_.chain_, loads, base_moment, backbone_);
@@ -267,7 +271,7 @@ class StaticsSolver::Finder : public EquilibriumFinder {
     solver_.base_moment_ = base_moment;
     const int before = report_.iterations;
     const Known known = has_columns ? Known::kColumns : Known::kInverse;
-    const bool settled = solver_.quick(loads, known, kFewSweeps, backbone_, report_);
+    const bool settled = solver_.quick(loads, known, few_sweeps, backbone_, report_);
     report_.iterations = before + 1;  // as much work as one converged shot
     return settled;
   }
