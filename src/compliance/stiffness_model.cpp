@@ -36,9 +36,11 @@ StiffnessModel::StiffnessModel(Scene scene, ModelOptions options)
 SolveStatus StiffnessModel::checkInput(PressuresRef pressures, const Wrench& tip_wrench) const {
   if (pressures.size() != chamber_count_) return {SolveCode::kInvalidInput, -1, static_cast<double>(pressures.size())};
   constexpr double kLargest = std::numeric_limits<double>::max();
-  for (int k = 0; k < pressures.size(); ++k)
-    if (!(pressures[k] >= -kAtmospherePa && pressures[k] <= kLargest))
-      return {SolveCode::kInvalidInput, k, pressures[k]};
+  bool all_fit = true;
+  const auto fits = [](double p) { return (p >= -kAtmospherePa) & (p <= kLargest); };
+  for (int k = 0; k < pressures.size(); ++k) all_fit &= fits(pressures[k]);
+  for (int k = 0; !all_fit; ++k)
+    if (!fits(pressures[k])) return {SolveCode::kInvalidInput, k, pressures[k]};
   if (!tip_wrench.allFinite()) return {SolveCode::kInvalidInput, chamber_count_, std::nan("")};
   return {};
 }
@@ -99,7 +101,9 @@ StiffnessSolution StiffnessModel::solve(PressuresRef pressures, const Wrench& ti
   solution.X_BT = backbone.X_BT;
   solution.numerical_error += 1e-14;  // rounding
   // A sum is finite only if all its terms are.
-  if (!std::isfinite(solution.X_BT.p.sum() + solution.compliance.sum() + solution.material_compliance.sum()))
+  double sum = solution.X_BT.p.sum() + solution.material_compliance.sum();
+  if (workspace.loaded_) sum += solution.compliance.sum();
+  if (!std::isfinite(sum))
     solution.status = {SolveCode::kNotConverged, -1, 0.0};
   return solution;
 }

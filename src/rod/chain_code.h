@@ -240,8 +240,6 @@ struct ChainPasses {
           if (!(bending <= kMaxUnloadedBending * kMaxUnloadedBending)) error += 1.0;  // the series are no good there
           if (bendsAsArc(e)) {
             placeArc(e);
-            const Lanes3 g = cayleyOfRotation(splat(e.length) * splat(e.rest_curvature));
-            e.g[0][kStages] = g.x[0], e.g[1][kStages] = g.y[0], e.g[2][kStages] = g.z[0];
           } else {
             S::placeUnloaded(e);
             M::material(e, true, accuracy);

@@ -105,7 +105,7 @@ double Discretisation::truncation(double cancellation, const Backbone& backbone)
   return sum;
 }
 
-bool Discretisation::refine(double amplification, Backbone& backbone) {
+bool Discretisation::refine(double amplification, Backbone& backbone, double tolerated) {
   constexpr double kMargin = 1.05, kMostGrowth = 2.0, kEasierBy = 0.8;
   constexpr int kPatience = 50;  // solves; each attempt with too little costs a second solve
   const int stages = backbone.passes->stages;
@@ -120,7 +120,7 @@ bool Discretisation::refine(double amplification, Backbone& backbone) {
       longest = std::max(longest, element->g_end(stages).squaredNorm());
     }
     error *= amplification;
-    const bool too_long = longest > kLongest, fine = error <= accuracy_ && !too_long;
+    const bool too_long = longest > kLongest, fine = error <= std::max(accuracy_, tolerated) && !too_long;
     easier = easier && !too_long && caution_[segment] > 1.0;
     if (fine && !easier) continue;
     // Bending at which elements of so many stages would leave just this error.

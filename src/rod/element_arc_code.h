@@ -24,17 +24,21 @@ struct Arc {
   Lanes compliance[kPackedSize];  // about the start
 };
 
-LIVE_STIFFNESS_INLINE Arc arcTo(const ElementState& e, Lanes s) {
+LIVE_STIFFNESS_INLINE void setPlane(ElementState& e) {
   const double* u = e.rest_curvature;
   const double square = u[0] * u[0] + u[1] * u[1];
   const bool straight = !(square > 1e-290);  // below, digits of the square are lost, and any axis will do
-  const double curvature = straight ? 0.0 : __builtin_sqrt(square);
-  const double ax = straight ? 1.0 : u[0] / curvature, ay = straight ? 0.0 : u[1] / curvature;
-  double q1[3], q2[3], q3[3];
-  rotate(e.R_start, {ay, -ax, 0.0}, q1);
-  rotate(e.R_start, {ax, ay, 0.0}, q2);
-  rotate(e.R_start, {0.0, 0.0, 1.0}, q3);
+  e.arc_curvature = straight ? 0.0 : __builtin_sqrt(square);
+  const double ax = straight ? 1.0 : u[0] / e.arc_curvature, ay = straight ? 0.0 : u[1] / e.arc_curvature;
+  e.arc_axis[0] = ax, e.arc_axis[1] = ay;
+  rotate(e.R_start, {ay, -ax, 0.0}, e.arc_q1);
+  rotate(e.R_start, {ax, ay, 0.0}, e.arc_q2);
+  rotate(e.R_start, {0.0, 0.0, 1.0}, e.arc_q3);
+}
 
+LIVE_STIFFNESS_INLINE Arc arcTo(const ElementState& e, Lanes s) {
+  const double ax = e.arc_axis[0], ay = e.arc_axis[1], curvature = e.arc_curvature;
+  const double(&q1)[3] = e.arc_q1, (&q2)[3] = e.arc_q2, (&q3)[3] = e.arc_q3;
   const Lanes angle = curvature * s, x = angle * angle;
   const Lanes c = series(kCosine, x), t = series(kThird, x), t2 = 0.25 * (t + c - x * t * c);  // t of twice the angle
   const Lanes sine = 1.0 - x * t, d3 = 1.0 - x * c, d1 = angle * sine, r3 = s * sine, r1 = s * angle * c;
@@ -78,6 +82,7 @@ LIVE_STIFFNESS_INLINE Arc arcTo(const ElementState& e, Lanes s) {
 
 // End and compliance of the element.
 inline void placeArc(ElementState& e) {
+  setPlane(e);
   const Arc arc = arcTo(e, splat(e.length));
   const Lanes R[9] = {arc.R.x.x, arc.R.y.x, arc.R.z.x, arc.R.x.y, arc.R.y.y,
                       arc.R.z.y, arc.R.x.z, arc.R.y.z, arc.R.z.z};

@@ -169,6 +169,11 @@ struct Shape : Collocation<kStages> {
     for (int k = 0; k < 6; ++k) {
       extrapolate(steadiness, e.phi[k], e.phi_before[k]);
       extrapolate(steadiness, e.phi_rate[k], e.phi_rate_before[k]);
+      for (int i = 0; i < 3; ++i) {  // where phi starts from: propagate() adds only what is still missing there
+        const double x = e.phi_start[k][i];
+        if (steadiness != 0.0) e.phi_start[k][i] = x + steadiness * (x - e.phi_start_before[k][i]);
+        e.phi_start_before[k][i] = x;
+      }
     }
   }
 

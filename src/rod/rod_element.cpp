@@ -49,7 +49,10 @@ Pose RodElement::X(int node) const {
 
 Vector3 RodElement::g_end(int stages) const { return {state.g[0][stages], state.g[1][stages], state.g[2][stages]}; }
 
-double RodElement::bending(int stages) const { return 2.0 * std::atan(0.5 * g_end(stages).norm()); }
+double RodElement::bending(int stages) const {
+  if (state.is_arc) return state.length * Vector3(state.rest_curvature).norm();
+  return 2.0 * std::atan(0.5 * g_end(stages).norm());
+}
 
 bool integrate(const ElementPasses& passes, bool anew, RodElement& element) {
   if (anew) passes.reset_guess(element.state);

@@ -63,8 +63,10 @@ double prepare(const Chain& chain, const DeadLoads& loads, Backbone& backbone, H
     const double length = rest.stretch * part.length, own_length = length / count, density = part.mass / length;
     for (int k = 0; k < count; ++k, ++element) {
       ElementState& e = element->state;
-      const Vector3 turn = turnOf(e, own_length, rest);
-      backbone.passes->predict(e, {turn.x(), turn.y(), turn.z()}, steadiness, keep == History::kColumns);
+      if (keep != History::kNone) {
+        const Vector3 turn = turnOf(e, own_length, rest);
+        backbone.passes->predict(e, {turn.x(), turn.y(), turn.z()}, steadiness, keep == History::kColumns);
+      }
       e.length = own_length;
       e.start = k * own_length;
       element->setSection(rest);

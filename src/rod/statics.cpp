@@ -19,6 +19,7 @@ constexpr double kResidualAccepted = 1e-8;  // rad, when rounding stops it short
 constexpr double kRoughColumns = 1e-2;      // relative error, enough for sweeps to converge
 constexpr double kFineColumns = 1e-12;      // for Newton steps where the residual is nearly singular, or huge
 constexpr double kMostAmplification = 1e6;
+constexpr double kRoughShape = 1e-3;        // error of discretisation that does for loads on the way to the last
 constexpr int kMaxSweeps = 40;
 constexpr double kQuickestRate = 0.01;      // and no better than this
 constexpr double kSlowestRate = 0.2;        // at which sweeps may be counted on to converge
@@ -55,12 +56,13 @@ bool StaticsSolver::updateInverse(const DeadLoads& loads, double goal, Backbone&
 
 // Sweeps of one pass an element, each followed by a step of the base moment with the kept inverse: shape and moment
 // converge together, linearly, by a factor of about ten a sweep. Without trouble it takes one to ten.
-bool StaticsSolver::quick(const DeadLoads& loads, bool has_inverse, int max_sweeps, Backbone& backbone,
+bool StaticsSolver::quick(const DeadLoads& loads, Known known, int max_sweeps, Backbone& backbone,
                           StaticsReport& report) {
-  constexpr int kSweepsBeforeInverse = 2;
+  const int sweeps_before_columns = known == Known::kNothing ? 2 : 0;
+  bool has_columns = known == Known::kColumns;
   constexpr double kRounding = 1e-13;
   const double goal = std::max(0.2 * accuracy_ / amplification_, 1e-15);
-  if (!has_inverse && !warm_) residual_inverse_.setIdentity();  // right but for the load's own effect
+  if (known == Known::kNothing) residual_inverse_.setIdentity();  // right but for the load's own effect
   double last = kInfinity;
   int growing = 0;
   ChainState chain = stateOf(chain_, loads, base_moment_, backbone);
@@ -71,22 +73,22 @@ bool StaticsSolver::quick(const DeadLoads& loads, bool has_inverse, int max_swee
     nodes_hold_guess_ = s.sound;
     const double error = std::max(s.change, bendingOf(Vector3(s.residual)));
     if (!s.sound || (growing += error > last) > 3) return false;
-    if (!has_inverse && i >= kSweepsBeforeInverse) {
+    if (!has_columns && i >= sweeps_before_columns) {
       SweepResult unchanged;
       backbone.passes->sweep(chain, Pass::kShape, unchanged);
-      if (!(has_inverse = updateInverse(loads, kRoughColumns, backbone))) return false;
+      if (!(has_columns = updateInverse(loads, kRoughColumns, backbone))) return false;
     }
     const Vector3 step = -residual_inverse_ * Vector3(s.residual);
     base_moment_ += step;
     for (int k = 0; k < 3; ++k) chain.base_moment[k] = base_moment_[k];
-    if (has_inverse) backbone.passes->follow_all(chain, {step.x(), step.y(), step.z()});
+    if (has_columns) backbone.passes->follow_all(chain, {step.x(), step.y(), step.z()});
     // A single sweep shows no rate: then that of the last solve counts, but not one that was quick by luck.
     if (i > 0) rate_ = std::max(kQuickestRate, std::min(kSlowestRate, error / last));  // 0 / 0: the slowest
     const double rate = i > 0 ? rate_ : std::max(rate_, 0.5 * kSlowestRate);
     const bool at_rounding = error <= kRounding && error > 0.3 * last;
     report.iteration = at_rounding ? error : rate * error;
     last = error;
-    if (!has_inverse || (report.iteration > goal && !at_rounding)) continue;
+    if (!has_columns || (report.iteration > goal && !at_rounding)) continue;
     backbone.passes->sweep(chain, Pass::kShape, s);
     report.residual = bendingOf(Vector3(s.residual));
     if (!(report.residual <= goal) && !at_rounding) continue;
@@ -204,20 +206,20 @@ void StaticsSolver::goOn(const DeadLoads& loads, Backbone& backbone) {
 
 // By the quickest way that works, whichever branch that leads to.
 bool StaticsSolver::findEquilibrium(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
-  bool has_inverse = warm_ && has_columns_;
+  Known known = !warm_ ? Known::kNothing : has_columns_ ? Known::kColumns : Known::kInverse;
   if (warm_) goOn(loads, backbone);
   else placeFresh(loads, backbone);
   while (true) {
-    bool converged = quick(loads, has_inverse, kMaxSweeps, backbone, report);
+    bool converged = quick(loads, known, kMaxSweeps, backbone, report);
     if (!converged) {
       placeFresh(loads, backbone);
       converged = newton(loads, backbone, 30, report);
     }
     if (!converged || !findTangent(loads, backbone, report)) return false;
-    has_inverse = true;
+    known = Known::kColumns;
     if (discretisation_.refine(report.amplification, backbone)) {
       forgetGuesses(loads, backbone);
-      has_inverse = false;
+      known = Known::kInverse;
     } else if (!((report.residual + report.iteration) * report.amplification > accuracy_) ||
                report.iterations >= kMaxIterations / 2) {
       return true;
@@ -228,18 +230,22 @@ bool StaticsSolver::findEquilibrium(const DeadLoads& loads, Backbone& backbone, 
 // Settles to one load of a branch search, with more elements where the robot bends more by now.
 class StaticsSolver::Finder : public EquilibriumFinder {
  public:
-  Finder(StaticsSolver& solver, Backbone& backbone, StaticsReport& report)
-      : solver_(solver), backbone_(backbone), report_(report) {}
+  Finder(StaticsSolver& solver, const DeadLoads& last, Backbone& backbone, StaticsReport& report)
+      : solver_(solver), last_(last), backbone_(backbone), report_(report) {}
 
   std::optional<Equilibrium> settle(const DeadLoads& loads, const Vector3& base_moment) override {
     prepare(solver_.chain_, loads, backbone_);
+    const bool is_last = loads.gravity == last_.gravity && loads.tip == last_.tip;
+    Vector3 guess = base_moment;
+    bool refined = false;
     do {
-      if (!(settleQuickly(loads, base_moment) || settleByNewton(loads, base_moment)) ||
+      if (!(settleQuickly(loads, guess, refined) || settleByNewton(loads, guess)) ||
           !solver_.findTangent(loads, backbone_, report_)) {
         solver_.forgetGuesses(loads, backbone_);
         return std::nullopt;
       }
-    } while (refine(loads));
+      guess = solver_.base_moment_;
+    } while ((refined = refine(loads, is_last ? solver_.accuracy_ : kRoughShape)));
     return Equilibrium{solver_.base_moment_, backbone_.X_BT.p, solver_.tangent_,
                        solver_.isStable(loads, backbone_, report_)};
   }
@@ -247,17 +253,25 @@ class StaticsSolver::Finder : public EquilibriumFinder {
   bool exhausted() const override { return report_.iterations >= kMaxIterations; }
 
  private:
-  // From the shape and the columns of the loads before.
-  bool settleQuickly(const DeadLoads& loads, const Vector3& base_moment) {
-    constexpr int kFewSweeps = 12;
-    constexpr double kFarFromBuckling = 4.0;  // amplification
-    if (!solver_.nodes_hold_guess_ || !solver_.has_columns_ || solver_.amplification_ > kFarFromBuckling) return false;
-    const Vector3 step = base_moment - solver_.base_moment_;
-    const ChainState chain = stateOf(solver_.chain_, loads, base_moment, backbone_);
-    backbone_.passes->follow_all(chain, {step.x(), step.y(), step.z()});
+  // From the shape and the columns of the loads before, or from the base moment that fewer elements have led to.
+  bool settleQuickly(const DeadLoads& loads, const Vector3& base_moment, bool refined) {
+    // Of rods that the loads bend little sweeps converge surely. Under more load a base moment must be known to more
+    // digits than they give, and Newton's method is not to be kept waiting.
+    constexpr double kLittle = 3.0;  // load number
+    const bool is_little = loadNumber(solver_.chain_, loads, backbone_) < kLittle;
+    const int few_sweeps = is_little ? 30 : 12;
+    const double far_from_buckling = is_little ? 8.0 : 4.0;  // amplification
+    const bool has_columns = solver_.nodes_hold_guess_ && solver_.has_columns_;
+    if (!(has_columns || refined) || solver_.amplification_ > far_from_buckling) return false;
+    if (has_columns) {
+      const Vector3 step = base_moment - solver_.base_moment_;
+      const ChainState chain = stateOf(solver_.chain_, loads, base_moment, backbone_);
+      backbone_.passes->follow_all(chain, {step.x(), step.y(), step.z()});
+    }
     solver_.base_moment_ = base_moment;
     const int before = report_.iterations;
-    const bool settled = solver_.quick(loads, true, kFewSweeps, backbone_, report_);
+    const Known known = has_columns ? Known::kColumns : Known::kInverse;
+    const bool settled = solver_.quick(loads, known, few_sweeps, backbone_, report_);
     report_.iterations = before + 1;  // as much work as one converged shot
     return settled;
   }
@@ -266,13 +280,14 @@ class StaticsSolver::Finder : public EquilibriumFinder {
     solver_.warm_ = false;
     return solver_.newton(loads, backbone_, 12, report_);
   }
-  bool refine(const DeadLoads& loads) {
-    if (!solver_.discretisation_.refine(report_.amplification, backbone_)) return false;
+  bool refine(const DeadLoads& loads, double tolerated) {
+    if (!solver_.discretisation_.refine(report_.amplification, backbone_, tolerated)) return false;
     solver_.forgetGuesses(loads, backbone_);
     return true;
   }
 
   StaticsSolver& solver_;
+  const DeadLoads& last_;
   Backbone& backbone_;
   StaticsReport& report_;
 };
@@ -281,7 +296,7 @@ class StaticsSolver::Finder : public EquilibriumFinder {
 void StaticsSolver::polish(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
   const Vector3 before = base_moment_;
   StaticsReport finer;
-  if (quick(loads, true, kMaxSweeps, backbone, finer) && findTangent(loads, backbone, finer)) {
+  if (quick(loads, Known::kColumns, kMaxSweeps, backbone, finer) && findTangent(loads, backbone, finer)) {
     report.residual = finer.residual;
     report.iteration = finer.iteration;
   } else {
@@ -296,7 +311,7 @@ void StaticsSolver::polish(const DeadLoads& loads, Backbone& backbone, StaticsRe
 bool StaticsSolver::findAlongLoads(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
   discretisation_.choose(loads, backbone);
   placeFresh(DeadLoads(), backbone);
-  Finder finder(*this, backbone, report);
+  Finder finder(*this, loads, backbone, report);
   BranchSearch search(finder, length_);
   const BranchEnd end = search.run(loads);
   report.buckled = end == BranchEnd::kBuckled;

@@ -35,8 +35,8 @@ TEST(Methods, AgreeWithTheLibraryEachWithinItsOwnError) {
     for (const MethodEntry& entry : methodList()) {
       const std::unique_ptr<StiffnessMethod> method = entry.make(scene);
       for (size_t i = 0; i < path.size(); i += 32) {
-        const MethodSolution solution = method->solve(path[i]);
-        ASSERT_TRUE(solution.converged) << method->name() << " at " << i;
+        const StiffnessSolution solution = method->solve(path[i]);
+        ASSERT_TRUE(solution.status.ok()) << method->name() << " at " << i;
         EXPECT_LT(errorsOf(solution, exact[i], scene.length()).largest(), errorBound(entry)) << method->name();
       }
     }
@@ -47,17 +47,17 @@ TEST(Methods, ForgetTheirHistoryOnReset) {
   const Scene scene = paperScene(2);
   const std::vector<Pressures> path = pressurePath(2);
   for (const MethodEntry& entry : methodList()) {
-    const MethodSolution fresh = entry.make(scene)->solve(path[0]);
+    const StiffnessSolution fresh = entry.make(scene)->solve(path[0]);
     const std::unique_ptr<StiffnessMethod> method = entry.make(scene);
-    ASSERT_TRUE(method->solve(path[40]).converged) << method->name();
+    ASSERT_TRUE(method->solve(path[40]).status.ok()) << method->name();
     method->reset();
-    const MethodSolution again = method->solve(path[0]);
+    const StiffnessSolution again = method->solve(path[0]);
     EXPECT_EQ(again.X_BT.p, fresh.X_BT.p) << method->name();
     EXPECT_EQ(again.compliance, fresh.compliance) << method->name();
   }
 }
 
-using Solve = std::function<MethodSolution(int resolution)>;
+using Solve = std::function<StiffnessSolution(int resolution)>;
 
 // Binary logarithm of the errors' ratio between two resolutions, the finer twice the coarser.
 SolutionErrors orders(const Solve& solve, int coarse, const StiffnessSolution& exact, double length) {

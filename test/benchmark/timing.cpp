@@ -34,11 +34,11 @@ double quantile(std::vector<float>& samples, double share) {
 TimedMethod::TimedMethod(std::unique_ptr<StiffnessMethod> method, const std::vector<Pressures>& path, bool cold)
     : method_(std::move(method)), path_(path), cold_(cold) {}
 
-MethodSolution TimedMethod::update() {
+StiffnessSolution TimedMethod::update() {
   if (cold_) method_->reset();
-  const MethodSolution solution = method_->solve(path_[at_]);
+  StiffnessSolution solution = method_->solve(path_[at_]);
   at_ = at_ + 1 < path_.size() ? at_ + 1 : 0;
-  converged_ = converged_ && solution.converged;
+  converged_ = converged_ && solution.status.ok();
   return solution;
 }
 

@@ -29,7 +29,7 @@ class TimedMethod {
 
   StiffnessMethod& method() { return *method_; }
   // Solves the next pressure of the path.
-  MethodSolution update();
+  StiffnessSolution update();
   // Measures for the given processor time, s. Updates are timed in batches of about kBatchSeconds, so that reading the
   // clock adds less than 1 %; a sample is the mean over a batch.
   void measure(double seconds);

@@ -63,8 +63,8 @@ void measure(const std::string& scene_path, const std::string& model_name, doubl
     for (int turn = 0; turn < 3; ++turn)
       for (TimedMethod& method : methods) method.measure(seconds / 3.0);
     for (size_t k = 0; k < methods.size(); ++k) {
-      const MethodSolution solution = methods[k].update();
-      if (!solution.converged) {  // the row stays, empty
+      const StiffnessSolution solution = methods[k].update();
+      if (!solution.status.ok()) {  // the row stays, empty
         std::printf("%s,%zu,,\n", k == 0 ? "library" : "common_practice", i);
         continue;
       }

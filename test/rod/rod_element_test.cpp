@@ -199,6 +199,22 @@ TEST_P(EveryPasses, ColumnsCarryARotationAndAShiftOfTheStart) {
   }
 }
 
+// Columns are linear in where they start, so that a start that moves on as before leaves the first pass nothing to do.
+TEST_P(EveryPasses, PredictsColumnsWhoseStartMovesSteadily) {
+  RodElement e = solved(loadedElement());
+  ElementColumns start = unitColumns(), end;
+  const Matrix3X6 step = 3.0 * Matrix3X6::Ones();
+  const double same[3] = {};
+  ASSERT_LT(propagate(passes(), true, e, start, 1e-15, end), 1e-13);
+  passes().predict(e.state, same, 0.0, true);
+  columnsOf(start.phi) += step;
+  ASSERT_LT(propagate(passes(), false, e, start, 1e-15, end), 1e-13);
+  passes().predict(e.state, same, 1.0, true);
+  columnsOf(start.phi) += step;
+  propagate(passes(), false, e, start, 1.0, end);  // one pass
+  EXPECT_LT(e.state.column_change, 1e-12);
+}
+
 TEST_P(EveryPasses, FollowMovesTheGuessToFirstOrder) {
   RodElement e = solved(loadedElement());
   ElementColumns unused;

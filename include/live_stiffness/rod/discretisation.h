@@ -21,9 +21,10 @@ class Discretisation {
   // compliance made of them.
   double truncation(double cancellation, const Backbone& backbone);
 
-  // Takes more stages or elements if the estimated error of a segment, times `amplification`, is above the accuracy, or
-  // if its elements bend too far for one Cayley vector. False if all is well or there are no more to take.
-  bool refine(double amplification, Backbone& backbone);
+  // Takes more stages or elements if the estimated error of a segment, times `amplification`, is above the accuracy (and
+  // what is tolerated), or if its elements bend too far for one Cayley vector. False if all is well or there are no more
+  // to take.
+  bool refine(double amplification, Backbone& backbone, double tolerated = 0.0);
 
   // Forgets what refine() has learnt.
   void reset() { std::fill(caution_.begin(), caution_.end(), 1.0); }

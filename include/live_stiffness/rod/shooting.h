@@ -17,13 +17,13 @@ ChainState stateOf(const Chain& chain, const DeadLoads& loads, const Vector3& ba
 
 // What a solve keeps of the solution that it starts from, so that the next one can go on from its change.
 enum class History {
-  kNone,
+  kNone,  // the nodes may still hold a guess for the same rest curvatures
   kShape,
   kColumns,  // both
 };
 
-// Gives the elements (as many as element_count says) their lengths, sections and loads, and lets the guess that they
-// hold follow the change of rest curvature; once before sweeps. extrapolate: the same history was kept the last time,
+// Gives the elements (as many as element_count says) their lengths, sections and loads; once before sweeps. With a
+// history the guess that they hold follows the change of rest curvature. extrapolate: the same history was kept the last time,
 // too, of these elements. Returns how far the change goes on as the last one did (1: the same; -1: back again; 0 if it
 // does not, or may not), by which shape and columns have been extrapolated.
 double prepare(const Chain& chain, const DeadLoads& loads, Backbone& backbone, History keep = History::kNone,

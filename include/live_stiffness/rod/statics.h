@@ -57,7 +57,12 @@ class StaticsSolver {
 
  private:
   class Finder;  // for the branch search
-  bool quick(const DeadLoads& loads, bool has_inverse, int max_sweeps, Backbone& backbone, StaticsReport& report);
+  enum class Known {  // of a solution nearby
+    kNothing,
+    kInverse,  // of the residual's derivative
+    kColumns,  // and the elements hold its shape and columns
+  };
+  bool quick(const DeadLoads& loads, Known known, int max_sweeps, Backbone& backbone, StaticsReport& report);
   void goOn(const DeadLoads& loads, Backbone& backbone);
   bool findEquilibrium(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
   bool findAlongLoads(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);

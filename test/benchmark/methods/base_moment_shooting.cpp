@@ -63,8 +63,9 @@ bool BaseMomentShooting::newton(bool fresh_jacobians) {
   return false;
 }
 
-MethodSolution BaseMomentShooting::finish() {
-  MethodSolution solution;
+StiffnessSolution BaseMomentShooting::finish() {
+  StiffnessSolution solution;
+  solution.status = statusOf(false);
   Tip tip;
   if (!shootWithColumns(tip)) return solution;
   const RodColumns& d = tip.columns;
@@ -77,12 +78,13 @@ MethodSolution BaseMomentShooting::finish() {
   solution.compliance << d.p.rightCols<3>() + d.p.leftCols<3>() * m0_of_force, d.p.leftCols<3>() * inverse_,
       d.phi.rightCols<3>() + d.phi.leftCols<3>() * m0_of_force, d.phi.leftCols<3>() * inverse_;
   solution.material_compliance = tip.sum.about(tip.state.X.p);
-  solution.converged = solution.compliance.allFinite();
+  solution.status = statusOf(solution.compliance.allFinite());
   return solution;
 }
 
-MethodSolution BaseMomentShooting::solve(PressuresRef pressures) {
-  MethodSolution solution;
+StiffnessSolution BaseMomentShooting::solve(PressuresRef pressures) {
+  StiffnessSolution solution;
+  solution.status = statusOf(false);
   if (!chain_.setPressures(pressures)) return solution;
   bool converged = warm_ && newton(false);
   if (!converged) {
@@ -91,7 +93,7 @@ MethodSolution BaseMomentShooting::solve(PressuresRef pressures) {
     converged = newton(true);
   }
   if (converged) solution = finish();
-  warm_ = solution.converged;
+  warm_ = solution.status.ok();
   return solution;
 }
 

@@ -12,7 +12,7 @@ class BaseMomentShooting : public StiffnessMethod {
  public:
   BaseMomentShooting(std::string name, const Scene& scene);
 
-  MethodSolution solve(PressuresRef pressures) final;
+  StiffnessSolution solve(PressuresRef pressures) final;
   void reset() final { warm_ = false; }
 
  protected:
@@ -34,7 +34,7 @@ class BaseMomentShooting : public StiffnessMethod {
   bool shoot(RodState& tip);
   bool shootWithColumns(Tip& tip);
   bool newton(bool fresh_jacobians);
-  MethodSolution finish();
+  StiffnessSolution finish();
 
   LoadedChain chain_;
   Vector3 base_moment_ = Vector3::Zero();

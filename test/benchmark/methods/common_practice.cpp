@@ -59,19 +59,20 @@ bool CommonPractice::iterate(const Wrench& tip_wrench, Vector6& base_wrench, Rod
   return false;
 }
 
-MethodSolution CommonPractice::solve(PressuresRef pressures) {
-  MethodSolution solution;
+StiffnessSolution CommonPractice::solve(PressuresRef pressures) {
+  StiffnessSolution solution;
+  solution.status = statusOf(false);
   if (!chain_.setPressures(pressures)) return solution;
   const bool reuse = jacobians_ == Jacobians::kReused;
   RodState tip, bent;
-  solution.converged = warm_ && iterate(Wrench::Zero(), base_wrench_, tip, !reuse);
-  if (!solution.converged) {
+  bool converged = warm_ && iterate(Wrench::Zero(), base_wrench_, tip, !reuse);
+  if (!converged) {
     linear(base_wrench_) = chain_.weight();
     angular(base_wrench_) = chain_.unloadedBaseMoment();
-    solution.converged = iterate(Wrench::Zero(), base_wrench_, tip, true);
+    converged = iterate(Wrench::Zero(), base_wrench_, tip, true);
   }
-  warm_ = solution.converged;
-  if (!solution.converged) return solution;
+  warm_ = converged;
+  if (!converged) return solution;
   solution.X_BT = tip.X;
   if (reuse) {
     Vector6 residual;
@@ -83,11 +84,12 @@ MethodSolution CommonPractice::solve(PressuresRef pressures) {
     const double step = i < 3 ? kComplianceStep : kComplianceStep * chain_.length();
     Vector6 base_wrench = base_wrench_;
     if (reuse) base_wrench += kComplianceStep * inverse_jacobian_.col(i);  // the residual is known without a shot
-    solution.converged = iterate(step * Wrench::Unit(i), base_wrench, bent, !reuse) && solution.converged;
+    converged = iterate(step * Wrench::Unit(i), base_wrench, bent, !reuse) && converged;
     solution.compliance.col(i).head<3>() = (bent.X.p - tip.X.p) / step;
     solution.compliance.col(i).tail<3>() = logSo3(bent.X.R * tip.X.R.transpose()) / step;
   }
   solution.material_compliance = materialCompliance(base_wrench_);
+  solution.status = statusOf(converged);
   return solution;
 }
 

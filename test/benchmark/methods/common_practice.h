@@ -18,7 +18,7 @@ class CommonPractice : public StiffnessMethod {
   // steps: of each segment, even.
   CommonPractice(const Scene& scene, Jacobians jacobians, int steps = kSteps);
 
-  MethodSolution solve(PressuresRef pressures) override;
+  StiffnessSolution solve(PressuresRef pressures) override;
   void reset() override { warm_ = false; }
 
  private:

@@ -16,11 +16,11 @@ LibraryMethod::LibraryMethod(std::string name, const Scene& scene, const ModelOp
   }
 }
 
-MethodSolution LibraryMethod::solve(PressuresRef pressures) {
-  const StiffnessSolution solution = model_.solve(pressures, Wrench::Zero(), workspace_);
+StiffnessSolution LibraryMethod::solve(PressuresRef pressures) {
+  StiffnessSolution solution = model_.solve(pressures, Wrench::Zero(), workspace_);
   for (size_t k = 0; solution.status.ok() && k < fractions_.size(); ++k)
     if (!fractions_[k].empty()) model_.stations(workspace_, static_cast<int>(k), fractions_[k], stations_[k]);
-  return {solution.status.ok(), solution.X_BT, solution.compliance, solution.material_compliance};
+  return solution;
 }
 
 }  // namespace live_stiffness

@@ -12,7 +12,7 @@ class LibraryMethod : public StiffnessMethod {
 
   LibraryMethod(std::string name, const Scene& scene, const ModelOptions& options, int stations = kStations);
 
-  MethodSolution solve(PressuresRef pressures) override;
+  StiffnessSolution solve(PressuresRef pressures) override;
   void reset() override { workspace_.reset(); }
   // Of each segment, base to tip.
   const std::vector<std::vector<Station>>& stations() const { return stations_; }

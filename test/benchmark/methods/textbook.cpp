@@ -88,19 +88,20 @@ bool Textbook::newton(const VectorXd& tip_wrench, VectorXd& base_wrench, States&
   return false;
 }
 
-MethodSolution Textbook::solve(PressuresRef pressures) {
-  MethodSolution solution;
+StiffnessSolution Textbook::solve(PressuresRef pressures) {
+  StiffnessSolution solution;
+  solution.status = statusOf(false);
   if (!chain_.setPressures(pressures)) return solution;
   if (base_wrench_.size() == 0) base_wrench_ = (VectorXd(6) << chain_.weight(), Vector3::Zero()).finished();
   States states, bent_states;
-  solution.converged = newton(VectorXd::Zero(6), base_wrench_, states);
+  bool converged = newton(VectorXd::Zero(6), base_wrench_, states);
   const RodState tip = unpacked(states.back());
   solution.X_BT = tip.X;
-  for (int i = 0; i < 6 && solution.converged; ++i) {
+  for (int i = 0; i < 6 && converged; ++i) {
     const double step = i < 3 ? 1e-5 : 1e-5 * chain_.length();
     VectorXd tip_wrench = VectorXd::Zero(6), base_wrench = base_wrench_;
     tip_wrench[i] = step;
-    solution.converged = newton(tip_wrench, base_wrench, bent_states);
+    converged = newton(tip_wrench, base_wrench, bent_states);
     const RodState bent = unpacked(bent_states.back());
     solution.compliance.col(i).head<3>() = (bent.X.p - tip.X.p) / step;
     solution.compliance.col(i).tail<3>() = logSo3(bent.X.R * tip.X.R.transpose()) / step;
@@ -112,7 +113,8 @@ MethodSolution Textbook::solve(PressuresRef pressures) {
       for (int i = 0; i <= steps_; ++i, ++state)
         sum.add(unpacked(*state).X, soft->rest.c, soft->length * simpsonWeight(i, steps_));
   solution.material_compliance = sum.about(tip.X.p);
-  if (!solution.converged) reset();
+  if (!converged) reset();
+  solution.status = statusOf(converged);
   return solution;
 }
 

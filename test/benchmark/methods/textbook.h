@@ -13,7 +13,7 @@ class Textbook : public StiffnessMethod {
  public:
   explicit Textbook(const Scene& scene, int steps = 100);
 
-  MethodSolution solve(PressuresRef pressures) override;
+  StiffnessSolution solve(PressuresRef pressures) override;
   void reset() override { base_wrench_ = Eigen::VectorXd(); }
 
  private:
