@@ -9,8 +9,8 @@ namespace live_stiffness {
 
 class ScaledModel {
  public:
-  // Models are rebuilt when the logarithm of the scale moved by more than this; in between the pose is extrapolated
-  // linearly (error of second order, 1e-6 of the deflection) and the compliance is that of the last rebuild.
+  // Models are rebuilt when the logarithm of the scale moved by more than this; in between the solution
+  // is that of the last rebuild (error of at most 1e-3 of the deflection).
   static constexpr double kRebuildAfter = 1e-3;
   static constexpr double kDifference = 1e-2;  // of the logarithm, for the derivative: truncation 1 % of it
 
@@ -41,7 +41,7 @@ class ScaledModel {
   ModelOptions options_;
   bool with_derivative_;
   double log_scale_ = 0.0;
-  std::unique_ptr<Solver> scaled_, softer_;
+  std::unique_ptr<Solver> scaled_, stiffer_;
 };
 
 }  // namespace live_stiffness

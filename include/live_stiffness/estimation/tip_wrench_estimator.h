@@ -7,7 +7,6 @@
 // not linearised (Bell and Cathey, "The iterated Kalman filter update as a Gauss-Newton method", IEEE TAC 1993).
 // Creep is taken from the scene (estimation/creep.h); what it leaves is model error. See docs/estimation.md.
 
-#include <memory>
 #include <string>
 
 #include "live_stiffness/estimation/creep.h"
@@ -53,7 +52,7 @@ class TipWrenchEstimator {
 
   // A sample: gauge pressures (Pa, one per chamber), measured tip pose (m; through the registration) and time (s,
   // increasing). True if estimate() is of this sample, outliers included; else see code(). Never throws. Bounded work:
-  // at most 2 (kMaxIterations + 2) solves; no allocation once running while the stiffness scale stands still.
+  // at most 4 (kMaxIterations + 2) solves; no allocation once running while the stiffness scale stands still.
   bool update(PressuresRef gauge_pressures, const Pose& measured_X_BT, double time);
   // The same without a pose (drop-out): predicts, and the covariance grows.
   bool predict(PressuresRef gauge_pressures, double time);
@@ -75,19 +74,29 @@ class TipWrenchEstimator {
   using State = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxStates, 1>;
   using StateMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxStates, kMaxStates>;
   using Design = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, kMaxStates>;
-  struct Linearisation;
+  struct Prediction {
+    State x;
+    StateMatrix P;
+  };
+  struct Correction {
+    Prediction posterior;
+    StiffnessSolution solution;
+    double innovation = 0.0;  // standard deviations
+    int iterations = 0;
+  };
 
   int scaleIndex() const { return options_.components; }
   int biasIndex() const { return options_.components + 1; }
   bool accept(PressuresRef pressures, double time);
-  void initialize();
+  void begin();
   bool step(PressuresRef pressures, const Pose* measured, double time);
-  void predictState(State& x, StateMatrix& P, double elapsed, double pressure_change, bool contact) const;
-  bool linearize(const State& x, const Pose& measured, Linearisation& at);
-  bool correct(const Pose& measured, const State& x_free, const StateMatrix& P_free, double elapsed);
+  Prediction predictState(double elapsed, double pressure_change, bool contact) const;
+  bool solveAt(const State& x, StiffnessSolution& solution);
+  bool correct(const Pose& measured, const Prediction& prior, bool learn_scale, Correction& result);
   bool isOutlier(const Pose& measured, double innovation);
-  bool publish(double time);
-  Wrench totalWrench(const State& x) const;
+  Pose withModelError(const Pose& X_BT, const State& x) const;
+  void publish(const StiffnessSolution& solution, double time);
+  Wrench wrenchOf(const State& x) const;
 
   TipWrenchOptions options_;
   ScaledModel model_;
@@ -98,13 +107,13 @@ class TipWrenchEstimator {
   State x_;
   StateMatrix P_;
   Pressures pressures_, effective_;  // of the last sample, Pa: as given, and after creep
-  double time_ = 0.0;
+  double time_ = 0.0;                // of the last sample, s
   bool started_ = false, has_estimate_ = false;
-  int outliers_ = 0;      // in a row
+  int outliers_ = 0;                 // in a row that agree with one another
   Pose last_outlier_;
   TipWrenchCode code_ = TipWrenchCode::kOk;
   SolveStatus status_;
-  TipWrenchEstimate estimate_, candidate_;
+  TipWrenchEstimate estimate_;
 };
 
 }  // namespace live_stiffness
