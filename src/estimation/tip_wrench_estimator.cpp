@@ -152,8 +152,11 @@ TipWrenchEstimator::Prediction TipWrenchEstimator::predictState(double elapsed, 
   State factor = State::Ones(size), noise = State::Zero(size);
   for (int k = 0; k < options_.components; ++k) {
     const double walk = k < 3 ? options_.force_walk : options_.moment_walk;
-    if (contact) noise[k] = walk * walk * elapsed;
-    else relax(next.x[k], factor[k], noise[k], k < 3 ? options_.free_force : options_.free_moment, options_.free_time, elapsed);
+    const double largest = k < 3 ? options_.contact_force : options_.contact_moment;
+    const double free = k < 3 ? options_.free_force : options_.free_moment;
+    // A process of size sigma and rate q forgets in 2 sigma^2 / q^2.
+    if (contact) relax(next.x[k], factor[k], noise[k], largest, 2.0 * std::pow(largest / walk, 2), elapsed);
+    else relax(next.x[k], factor[k], noise[k], free, options_.free_time, elapsed);
   }
   if (options_.scale_deviation > 0.0 && !contact)
     noise[scaleIndex()] = options_.scale_walk * options_.scale_walk * elapsed;

@@ -10,6 +10,8 @@ void TipWrenchOptions::check(FaultList& faults) const {
   faults.check("free_force", free_force, {1e-4, 100.0});
   faults.check("free_moment", free_moment, {1e-6, 10.0});
   faults.check("free_time", free_time, {0.01, 100.0});
+  faults.check("contact_force", contact_force, {1e-3, 1e4});
+  faults.check("contact_moment", contact_moment, {1e-5, 1e3});
   faults.check("force_walk", force_walk, {1e-3, 1e3});
   faults.check("moment_walk", moment_walk, {1e-5, 100.0});
   faults.check("bias_position", bias_position, {0.0, 0.1});

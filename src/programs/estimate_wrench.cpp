@@ -94,6 +94,7 @@ int main(int argc, char** argv) {
   ForceSensorMount mount;
   double azimuth_deg = 0.0;
   TipWrenchOptions filter;
+  double per_bar_m = 1e5 * filter.bias_position_per_pressure, per_bar_deg = 1e5 * degrees(filter.bias_rotation_per_pressure);
   po::options_description options("Options");
   options.add_options()
     ("help,h", "print this and exit")
@@ -107,6 +108,10 @@ int main(int argc, char** argv) {
     ("bias-position-m", po::value(&filter.bias_position)->default_value(filter.bias_position), "slow model error per axis")
     ("bias-rotation-rad", po::value(&filter.bias_rotation)->default_value(filter.bias_rotation), "slow model error per axis")
     ("bias-time-s", po::value(&filter.bias_time)->default_value(filter.bias_time), "time in which it changes, no contact")
+    ("bias-position-per-bar-m", po::value(&per_bar_m)->default_value(per_bar_m), "slow model error after a change of pressure")
+    ("bias-rotation-per-bar-deg", po::value(&per_bar_deg)->default_value(per_bar_deg), "the same, rotation")
+    ("contact-force-n", po::value(&filter.contact_force)->default_value(filter.contact_force), "size of forces to expect")
+    ("force-walk", po::value(&filter.force_walk)->default_value(filter.force_walk), "how fast they change, N / sqrt(s)")
     ("scale-deviation", po::value(&filter.scale_deviation)->default_value(filter.scale_deviation),
      "uncertainty of the logarithm of the stiffness scale; 0: not adapted")
     ("force-sensor-azimuth-deg", po::value(&azimuth_deg)->default_value(0.0), "force sensor's turn about z of T")
@@ -122,6 +127,8 @@ int main(int argc, char** argv) {
       return 0;
     }
     po::notify(values);
+    filter.bias_position_per_pressure = 1e-5 * per_bar_m;
+    filter.bias_rotation_per_pressure = 1e-5 * radians(per_bar_deg);
     mount.azimuth = radians(azimuth_deg);
     run(scene, recording, registration, output, mount, filter);
     return 0;
