@@ -301,6 +301,27 @@ void fillDeflection(const DeflectionCheck& check, PredictDeflection::Response& r
   response.exponential_rotation_error = check.exponential_error.rotation;
 }
 
+TipContact toTipContact(const TipWrenchEstimate& estimate, const Wrench& known, const std::string& fault,
+                        const ros::Time& stamp, const std::string& frame) {
+  TipContact contact;
+  contact.header.stamp = stamp;
+  contact.header.frame_id = frame;
+  contact.contact = estimate.contact;
+  contact.outlier = estimate.outlier;
+  contact.tracked = estimate.tracked;
+  contact.message = fault;
+  contact.wrench = toWrench(estimate.wrench);
+  copyRowByRow(estimate.covariance, contact.covariance);
+  contact.known_wrench = toWrench(known);
+  contact.stiffness_scale = estimate.stiffness_scale;
+  contact.stiffness_scale_deviation = estimate.stiffness_scale_deviation;
+  contact.tip_pose = toPose(estimate.X_BT);
+  copyRowByRow(estimate.solution.compliance, contact.compliance);
+  contact.model_error = toTwist(estimate.model_error);
+  contact.innovation = estimate.innovation;
+  return contact;
+}
+
 void fillRegistration(const LiveRegistration& result, Register::Response& response) {
   const RegistrationFit& fit = result.fit;
   response.fitted = true;

@@ -65,15 +65,14 @@ std::optional<Pose> TrackerInput::freshTip() const {
 
 void TrackerInput::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const ros::Time now = ros::Time::now();
-  const double unchanged = (now - last_change_).toSec();
   if (!watch_.currentFault().empty())
     status.summary(DiagnosticStatus::WARN, watch_.currentFault());
   else if (!watch_.everAccepted())
     status.summary(DiagnosticStatus::WARN, "no tracker pose received yet; estimates do not need it");
   else if (watch_.age(now) > parameters_.pose_timeout)
     status.summaryf(DiagnosticStatus::WARN, "tracker pose is stale: %.1f s old", watch_.age(now));
-  else if (unchanged > parameters_.pose_timeout)
-    status.summaryf(DiagnosticStatus::WARN, "tracker repeats the same pose for %.1f s: sensor lost?", unchanged);
+  else if (repeatsItself())
+    status.summaryf(DiagnosticStatus::WARN, "tracker repeats the same pose for %.1f s: sensor lost?", unchangedFor());
   else if (X_AS_.p.norm() > kPlausibleReach)
     status.summary(DiagnosticStatus::WARN, "position is metres away: millimetres? (set ~aurora_position_unit: mm)");
   else

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "live_stiffness/estimation/tip_force.h"
+#include "live_stiffness/ros/contact_output.h"
 #include "live_stiffness/ros/markers.h"
 #include "live_stiffness/ros/node_parameters.h"
 #include "live_stiffness/ros/pose_output.h"
@@ -46,8 +46,8 @@ class StiffnessNode {
   StiffnessEstimator estimator_;
   PoseOutput pose_output_;
   MarkerStyle marker_style_;
-  ros::Publisher estimate_publisher_, backbone_publisher_, marker_publisher_, error_publisher_,
-      wrench_publisher_;
+  ros::Publisher estimate_publisher_, backbone_publisher_, marker_publisher_, error_publisher_;
+  ContactOutput contact_;
   diagnostic_updater::Updater diagnostics_;
 
   ros::Time pressure_stamp_;  // of the newest usable pressures

@@ -26,6 +26,8 @@ class TrackerInput {
 
   // The newest measured pose of T in B, if it is not older than pose_timeout.
   std::optional<Pose> freshTip() const;
+  // True if the tracker has said the same for longer than pose_timeout: it has lost its sensor.
+  bool repeatsItself() const { return unchangedFor() > parameters_.pose_timeout; }
   // Call now and then: a subscriber keeps the type of its first publisher, so it is renewed when that one is gone.
   void tend();
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
@@ -33,6 +35,7 @@ class TrackerInput {
  private:
   void onMessage(const topic_tools::ShapeShifter::ConstPtr& message);
   void onTfPoll(const ros::TimerEvent&);
+  double unchangedFor() const { return (ros::Time::now() - last_change_).toSec(); }  // s
   void take(const Reading<TrackedPose>& reading);
 
   ros::NodeHandle node_;
