@@ -15,5 +15,5 @@ programs=$build/devel/lib/live_stiffness
 scene=$source/config/scenes/stiff_flop_calibrated.yaml
 "$programs/recording_to_bag" "$recording" "$work/load_1.bag"
 "$programs/register_recording" "$scene" "$recording" "$work/registration.yaml" --samples quasi_static
-rostest --results-filename=recorded_load_1.xml --text "$source/test/ros/contact_replay.test" bag:="$work/load_1.bag" \
+rostest --results-filename=recorded_load_1.xml "$source/test/ros/contact_replay.test" bag:="$work/load_1.bag" \
   scene:="$scene" registration:="$work/registration.yaml" name:=recorded_load_1
