@@ -29,7 +29,7 @@ TEST(TipWrenchConvergence, FindsAPushThatBeganDuringADropOut) {
     Pressures pressures(6);
     for (int pair = 0; pair < 3; ++pair) pressures[2 * pair] = pressures[2 * pair + 1] = 60e3 * uniform(random);
     Wrench push = Wrench::Zero();
-    const double azimuth = 2.0 * kPi * uniform(random), size = 0.15 + 0.35 * uniform(random);
+    const double azimuth = 2.0 * kPi * uniform(random), size = 0.2 + 0.3 * uniform(random);
     linear(push) = size * Vector3(std::cos(azimuth), std::sin(azimuth), 0.0);
     const Pose free = model.solve(pressures, Wrench::Zero(), workspace).X_BT;
     const StiffnessSolution pushed = model.solve(pressures, push, workspace);

@@ -15,7 +15,7 @@ struct TipWrenchOptions {
   // White, per sample, of the tracker and of what the model does not follow from one sample to the next: a silicone arm
   // in motion is some millimetres from its model, and its tip turns about its own axis in ways that none describes (10
   // deg and more on recordings), so that by default rotation hardly counts. With 6 components it must: lower it.
-  TrackerNoise tracker{3e-3, 0.5};  // position 1e-6 to 0.1 m, rotation 1e-5 to 1 rad
+  TrackerNoise tracker{2e-3, 0.5};  // position 1e-6 to 0.1 m, rotation 1e-5 to 1 rad
 
   // The wrench, a Gauss-Markov process. Without contact it is small and soon forgotten, so that what lasts counts as
   // model error; under contact it walks freely up to the size that can be expected.
@@ -24,7 +24,7 @@ struct TipWrenchOptions {
   double free_time = 0.5;       // s; 0.01 to 100
   double contact_force = 0.3;   // N; 1e-3 to 1e4
   double contact_moment = 0.01; // N m; 1e-5 to 1e3
-  double force_walk = 0.5;      // N / sqrt(s); 1e-3 to 1e3
+  double force_walk = 1.5;      // N / sqrt(s); 1e-3 to 1e3
   double moment_walk = 0.015;   // N m / sqrt(s); 1e-5 to 100
 
   // Model error: a slow twist between the model's tip and the real one (creep that the model does not know, errors of
@@ -42,7 +42,7 @@ struct TipWrenchOptions {
 
   // Samples farther from the prediction than this many standard deviations count less (as in Huber's loss), and beyond
   // the gate not at all, until `reaccept` samples in a row agree with one another.
-  double robust_from = 4.0;  // 1 to 100
+  double robust_from = 2.0;  // 1 to 100
   double gate = 8.0;         // at least robust_from, to 1000
   int reaccept = 5;          // 2 to 1000
 
