@@ -1,8 +1,10 @@
-// rig_simulator: a node that plays a rig. Publishes chamber_pressures, aurora_pose and ~true_tip_pose.
+// rig_simulator: a node that plays a rig. Publishes chamber_pressures, aurora_pose and, as truth, ~true_tip_pose and
+// ~true_tip_wrench (of the pusher, base axes); with a pusher also tip_force_torque, which a force sensor at T measures.
 
 #include <ros/ros.h>
 
 #include "live_stiffness/ros/conversions.h"
+#include "live_stiffness/ros/rig_bag.h"
 #include "live_stiffness/ros/rig_parameters.h"
 
 namespace {
@@ -17,7 +19,11 @@ class RigSimulator {
         pressures_(node.advertise<ChamberPressures>("chamber_pressures", 10)),
         tracker_(node.advertise<geometry_msgs::PoseStamped>("aurora_pose", 10)),
         truth_(ros::NodeHandle(private_node).advertise<geometry_msgs::PoseStamped>("true_tip_pose", 10)),
-        timer_(node.createTimer(ros::Duration(1.0 / parameters_.rate), &RigSimulator::onTimer, this)) {}
+        true_wrench_(ros::NodeHandle(private_node).advertise<geometry_msgs::WrenchStamped>("true_tip_wrench", 10)),
+        timer_(node.createTimer(ros::Duration(1.0 / parameters_.rate), &RigSimulator::onTimer, this)) {
+    if (Contact(parameters_.options.contact).exists())
+      force_sensor_ = node.advertise<geometry_msgs::WrenchStamped>("tip_force_torque", 10);
+  }
 
  private:
   void onTimer(const ros::TimerEvent&) {
@@ -31,6 +37,8 @@ class RigSimulator {
       pressures_.publish(toPressures(sample.measured_channels, now));
       if (sample.X_AS) tracker_.publish(toPoseStamped(*sample.X_AS, now, parameters_.tracker_frame));
       truth_.publish(toPoseStamped(sample.X_BT, now, parameters_.base_frame));
+      true_wrench_.publish(toWrenchStamped(sample.contact_wrench, now, parameters_.base_frame));
+      if (force_sensor_) force_sensor_.publish(toWrenchStamped(sample.sensedContact(), now, kForceSensorFrame));
     } catch (const std::runtime_error& error) {
       ROS_ERROR_THROTTLE(1.0, "%s", error.what());
     }
@@ -40,7 +48,7 @@ class RigSimulator {
   RigModel rig_;
   ros::Time start_;
   double last_time_ = 0.0;
-  ros::Publisher pressures_, tracker_, truth_;
+  ros::Publisher pressures_, tracker_, truth_, true_wrench_, force_sensor_;
   ros::Timer timer_;
 };
 

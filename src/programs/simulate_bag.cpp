@@ -14,9 +14,11 @@ using namespace live_stiffness;
 int main(int argc, char** argv) {
   std::string scene_path, bag_path, program = "triangle", registration_path;
   double seconds = 20.0, rate_hz = 40.0;
+  std::vector<double> push_n;
   int channels = 0;
   RigOptions rig_options;
   rig_options.drop_out_probability = 0.002;
+  ContactOptions& contact = rig_options.contact;
   po::options_description options("Options");
   options.add_options()
     ("help,h", "print this and exit")
@@ -29,6 +31,12 @@ int main(int argc, char** argv) {
      "highest pressure")
     ("channels", po::value(&channels), "pressure channels, each feeding as many neighbouring chambers (default: one "
                                        "per chamber)")
+    ("push-n", po::value(&push_n)->multitoken(), "force that pushes the tip now and then, X Y Z in base axes; the bag "
+                                                 "then has the truth on tip_force_torque, in axes of the tip")
+    ("push-start-s", po::value(&contact.start)->default_value(contact.start), "when the first push begins")
+    ("push-duration-s", po::value(&contact.duration)->default_value(contact.duration), "length of a push")
+    ("push-period-s", po::value(&contact.period)->default_value(contact.period),
+     "from push to push, each turned by 90 deg about z; 0: one push only")
     ("registration", po::value(&registration_path), "where base and sensor are (default: identity)")
     ("seed", po::value(&rig_options.seed)->default_value(rig_options.seed), "of everything random");
   po::positional_options_description positional;
@@ -45,6 +53,9 @@ int main(int argc, char** argv) {
     rig_options.program.kind = programKind(program, faults);
     faults.check("seconds", seconds, {0.1, 1e5});
     faults.check("rate-hz", rate_hz, {1.0, 1000.0});
+    if (!push_n.empty() && push_n.size() != 3)
+      faults.add("push-n has " + std::to_string(push_n.size()) + " numbers: must be three, X Y Z");
+    else if (!push_n.empty()) contact.wrench << push_n[0], push_n[1], push_n[2], 0.0, 0.0, 0.0;
     faults.throwIfAny();
     const Scene scene = loadSceneFile(scene_path);
     if (channels > 0) rig_options.channel_of_chamber = ChannelMap::even(channels, scene.chamberCount()).channelOfChamber();
@@ -58,6 +69,7 @@ int main(int argc, char** argv) {
       const ros::Time stamp = bagTime(sample.time);
       bag.write(sample.measured_channels, stamp);
       if (sample.X_AS) bag.write(*sample.X_AS, stamp);
+      if (!push_n.empty()) bag.writeForceTorque(sample.sensedContact(), stamp);
       progress.update(i + 1);
     }
     return 0;

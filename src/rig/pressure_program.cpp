@@ -4,6 +4,8 @@
 #include <cmath>
 #include <random>
 
+#include "live_stiffness/rig/quintic_blend.h"
+
 namespace live_stiffness {
 namespace {
 
@@ -12,12 +14,6 @@ constexpr double kLargestStep = 0.5;      // of the random walk, of the amplitud
 constexpr double kStairBlend = 0.2;       // of a period
 constexpr int kStairSlots = 4;            // periods a channel has: three stairs and a rest
 
-// 0 to 1 with zero velocity and acceleration at both ends.
-double blend(double x) {
-  const double t = std::clamp(x, 0.0, 1.0);
-  return t * t * t * (10.0 + t * (6.0 * t - 15.0));
-}
-
 double staircase(double periods, int channel, int channels) {
   const double cycle = std::fmod(periods, static_cast<double>(kStairSlots * channels));
   const double own = cycle - kStairSlots * channel;
@@ -25,7 +21,7 @@ double staircase(double periods, int channel, int channels) {
   const int stair = static_cast<int>(own);
   const double from = stair / 3.0;
   const double to = stair == 3 ? 0.0 : (stair + 1) / 3.0;
-  return from + (to - from) * blend((own - stair) / kStairBlend);
+  return from + (to - from) * quinticBlend((own - stair) / kStairBlend);
 }
 
 double triangle(double periods, int channel, int channels) {
@@ -49,7 +45,7 @@ double alongWalk(const std::vector<double>& levels, double periods) {
   const double position = std::fmod(periods, 2.0 * last);
   const int k = static_cast<int>(position);
   const auto level = [&](int i) { return levels[i <= last ? i : 2 * last - i]; };
-  return level(k) + (level(k + 1) - level(k)) * blend(position - k);
+  return level(k) + (level(k + 1) - level(k)) * quinticBlend(position - k);
 }
 
 }  // namespace

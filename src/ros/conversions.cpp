@@ -301,6 +301,49 @@ void fillDeflection(const DeflectionCheck& check, PredictDeflection::Response& r
   response.exponential_rotation_error = check.exponential_error.rotation;
 }
 
+TipContact toTipContact(const TipWrenchEstimate& estimate, const Wrench& known, const std::string& fault,
+                        const ros::Time& stamp, const std::string& frame) {
+  TipContact contact;
+  contact.header.stamp = stamp;
+  contact.header.frame_id = frame;
+  contact.contact = estimate.contact;
+  contact.outlier = estimate.outlier;
+  contact.tracked = estimate.tracked;
+  contact.message = fault;
+  contact.wrench = toWrench(estimate.wrench);
+  copyRowByRow(estimate.covariance, contact.covariance);
+  contact.known_wrench = toWrench(known);
+  contact.stiffness_scale = estimate.stiffness_scale;
+  contact.stiffness_scale_deviation = estimate.stiffness_scale_deviation;
+  contact.tip_pose = toPose(estimate.X_BT);
+  copyRowByRow(estimate.solution.compliance, contact.compliance);
+  contact.model_error = toTwist(estimate.model_error);
+  contact.innovation = estimate.innovation;
+  return contact;
+}
+
+void fillRegistration(const LiveRegistration& result, Register::Response& response) {
+  const RegistrationFit& fit = result.fit;
+  response.fitted = true;
+  response.base_in_tracker = toPose(fit.registration.X_AB);
+  response.sensor_on_tip = toPose(fit.registration.X_TS);
+  response.base_rotation_determined = fit.base_rotation_determined;
+  response.sensor_offset_determined = fit.sensor_offset_determined;
+  response.weakest_sensitivity = fit.weakest_sensitivity;
+  response.advice = fit.advice();
+  response.samples = result.used;
+  response.outliers = result.outliers;
+  response.span = result.span;
+  response.position_mean = fit.position.mean;
+  response.position_rms = fit.position.rms;
+  response.position_p95 = fit.position.p95;
+  response.position_max = fit.position.max;
+  response.rotation_mean = fit.rotation.mean;
+  response.rotation_rms = fit.rotation.rms;
+  response.rotation_p95 = fit.rotation.p95;
+  response.rotation_max = fit.rotation.max;
+}
+
 geometry_msgs::Twist toTwist(const Twist& twist) {
   geometry_msgs::Twist message;
   message.linear = toVector(linear(twist));

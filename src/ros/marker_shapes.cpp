@@ -83,6 +83,16 @@ void setBall(Marker& marker, const Vector3& centre, double diameter, const std_m
   marker.color = shade;
 }
 
+void setArrow(Marker& marker, const Vector3& from, const Vector3& to, const std_msgs::ColorRGBA& shade) {
+  marker.type = Marker::ARROW;
+  marker.points = {toPoint(from), toPoint(to)};
+  marker.scale.x = 0.0012;  // shaft
+  marker.scale.y = 0.003;   // head
+  marker.scale.z = 0.005;
+  marker.color = shade;
+  if ((to - from).norm() < kSmallestDrawn) marker.action = Marker::DELETE;
+}
+
 void setText(Marker& marker, const Vector3& place, double height, const std::string& text) {
   marker.type = Marker::TEXT_VIEW_FACING;
   marker.pose.position = toPoint(place);

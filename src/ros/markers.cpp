@@ -67,6 +67,13 @@ Marker eigenvalueText(const Estimate& estimate, bool stale, const MarkerStyle& s
   return marker;
 }
 
+// What an arrow of a force spans, kept within what can be drawn.
+Vector3 arrowOf(const Vector3& force, double force_n_per_m) {
+  constexpr double kLongest = 0.2;  // m
+  const double length = force.norm() / force_n_per_m;
+  return (length > kLongest ? kLongest / length : 1.0) / force_n_per_m * force;
+}
+
 }  // namespace
 
 MarkerArray makeMarkers(const Estimate& estimate, const std::vector<Station>& samples,
@@ -117,7 +124,6 @@ MarkerArray makeEigenscrewMarkers(const Estimate& estimate, bool stale, double l
 
 MarkerArray makeGhostMarkers(const Ghost* ghost, double force_n_per_m, const MarkerStyle& style,
                              const ros::Time& stamp) {
-  constexpr double kLongest = 0.2, kShortest = 1e-4;  // arrow, m
   MarkerArray markers;
   const auto add = [&](const std::string& name, int id, int type) -> Marker& {
     markers.markers.push_back(newMarker(style.frame, stamp, name, id, type));
@@ -139,17 +145,23 @@ MarkerArray makeGhostMarkers(const Ghost* ghost, double force_n_per_m, const Mar
   const std_msgs::ColorRGBA shade = color(0.85, 0.9, 1.0, 0.45);
   setTube(tube, ghost->shape, style.tube_radius, {shade});
   setBall(tip, ghost->X_BT.p, 0.004, shade);
-  const double length = ghost->force.norm() / force_n_per_m;
-  if (length < kShortest) {
-    arrow.action = Marker::DELETE;
-    return markers;
-  }
-  const Vector3 along = std::min(1.0, kLongest / length) / force_n_per_m * ghost->force;
-  arrow.points = {toPoint(ghost->X_BT.p), toPoint(ghost->X_BT.p + along)};
-  arrow.scale.x = 0.0012;  // shaft
-  arrow.scale.y = 0.003;   // head
-  arrow.scale.z = 0.005;
-  arrow.color = color(1.0, 0.9, 0.2, 1.0);
+  setArrow(arrow, ghost->X_BT.p, ghost->X_BT.p + arrowOf(ghost->force, force_n_per_m), color(1.0, 0.9, 0.2, 1.0));
+  return markers;
+}
+
+MarkerArray makeContactMarkers(const Vector3& tip, const Vector3& force, double deviation, bool in_contact,
+                               double force_n_per_m, const MarkerStyle& style, const ros::Time& stamp) {
+  MarkerArray markers;
+  markers.markers = {newMarker(style.frame, stamp, "contact", 0, Marker::ARROW),
+                     newMarker(style.frame, stamp, "contact", 1, Marker::TEXT_VIEW_FACING)};
+  const Vector3 tail = tip - arrowOf(force, force_n_per_m);
+  const std_msgs::ColorRGBA shade = color(1.0, 0.3, 0.85, 1.0);
+  setArrow(markers.markers[0], tail, tip, shade);
+  char text[64];
+  std::snprintf(text, sizeof text, "%.2f +- %.2f N", force.norm(), deviation);
+  setText(markers.markers[1], tail + Vector3(0.0, 0.0, 0.005), 0.005, text);
+  markers.markers[1].color = shade;
+  if (!in_contact) deleteAll(markers);
   return markers;
 }
 

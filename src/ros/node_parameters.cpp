@@ -3,6 +3,7 @@
 #include <ros/console.h>
 
 #include "live_stiffness/rod/scene_file.h"
+#include "live_stiffness/ros/contact_parameters.h"
 #include "live_stiffness/ros/parameter_reader.h"
 
 namespace live_stiffness {
@@ -47,6 +48,8 @@ void readTracker(ParameterReader& read, NodeParameters& parameters) {
   parameters.tip_wrench_timeout =
       read.number("tip_wrench_timeout_s", parameters.tip_wrench_timeout, Range::nonnegative());
   parameters.registration = read.file<Registration>("registration_file", loadRegistrationFile, false);
+  parameters.registration_file = read.text("registration_file", "");
+  parameters.registration_buffer = read.number("registration_buffer_s", parameters.registration_buffer, {1.0, 3600.0});
 }
 
 void readDisplay(ParameterReader& read, NodeParameters& parameters, FaultList& faults) {
@@ -54,6 +57,8 @@ void readDisplay(ParameterReader& read, NodeParameters& parameters, FaultList& f
   parameters.estimator.fractions =
       read.numbers("ellipsoid_fractions", parameters.estimator.fractions, {0.0, 1.0});
   parameters.ellipsoid_scale = read.number("ellipsoid_scale_m_per_m_n", parameters.ellipsoid_scale, Range::positive());
+  parameters.contact_arrow_scale =
+      read.number("contact_arrow_n_per_m", parameters.contact_arrow_scale, Range::positive());
   parameters.marker_rate = read.number("marker_rate_hz", parameters.marker_rate, {0.1, 100.0});
   parameters.show_eigenscrews = read.boolean("show_eigenscrews", parameters.show_eigenscrews);
   parameters.eigenscrew_length =
@@ -82,6 +87,7 @@ NodeParameters loadNodeParameters(const ros::NodeHandle& private_node) {
   readModel(read, parameters, faults);
   readPressureInput(read, parameters, faults);
   readTracker(read, parameters);
+  parameters.contact = readContactParameters(read, faults);
   readDisplay(read, parameters, faults);
   readScene(read, parameters, faults);
   for (const std::string& key : read.unknown()) ROS_WARN("parameter ~%s is not known to stiffness_node", key.c_str());

@@ -21,7 +21,7 @@ void RigBag::write(const Pose& X_AS, const ros::Time& stamp) {
 }
 
 void RigBag::writeForceTorque(const Wrench& wrench, const ros::Time& stamp) {
-  bag_.write("tip_force_torque", stamp, toWrenchStamped(wrench, stamp, "tip_force_sensor"));
+  bag_.write("tip_force_torque", stamp, toWrenchStamped(wrench, stamp, kForceSensorFrame));
 }
 
 }  // namespace live_stiffness

@@ -8,6 +8,29 @@
 
 namespace live_stiffness {
 
+namespace {
+
+Vector3 readVector3(ParameterReader& read, const std::string& key, FaultList& faults) {
+  const std::vector<double> values = read.numbers(key, {0.0, 0.0, 0.0}, Range::finite());
+  if (values.size() == 3) return {values[0], values[1], values[2]};
+  faults.add("~" + key + " has " + std::to_string(values.size()) + " entries: must have three, x, y and z");
+  return Vector3::Zero();
+}
+
+void readContact(ParameterReader& read, ContactOptions& contact, FaultList& faults) {
+  contact.wrench << readVector3(read, "contact_force_n", faults), readVector3(read, "contact_moment_n_m", faults);
+  contact.start = read.number("contact_start_s", contact.start, {0.0, 1e5});
+  contact.duration = read.number("contact_duration_s", contact.duration, {0.1, 3600.0});
+  contact.ramp = read.number("contact_ramp_s", contact.ramp, {0.0, 0.5 * contact.duration});
+  contact.period = read.number("contact_period_s", contact.period, {0.0, 1e5});
+  if (contact.period != 0.0 && contact.period < contact.duration)
+    faults.add("~contact_period_s = " + numberText(contact.period) + ": must be 0 (one push) or at least "
+               "contact_duration_s, " + numberText(contact.duration));
+  contact.turn = radians(read.number("contact_turn_deg", degrees(contact.turn), {-360.0, 360.0}));
+}
+
+}  // namespace
+
 RigParameters loadRigParameters(const ros::NodeHandle& private_node) {
   FaultList faults("parameters of " + private_node.getNamespace());
   ParameterReader read(private_node, faults);
@@ -28,6 +51,7 @@ RigParameters loadRigParameters(const ros::NodeHandle& private_node) {
   options.rotation_noise = radians(read.number("rotation_noise_deg", degrees(options.rotation_noise), {0.0, 28.0}));
   options.drop_out_probability = read.number("drop_out_probability", options.drop_out_probability, {0.0, 1.0});
   options.drop_out_duration = read.number("drop_out_duration_s", options.drop_out_duration, {0.0, 3600.0});
+  readContact(read, options.contact, faults);
   parameters.rate = read.number("rate_hz", parameters.rate, {1.0, 1000.0});
   parameters.tracker_frame = withoutSlash(read.text("tracker_frame", "aurora"));
   parameters.base_frame = withoutSlash(read.text("base_frame", "base"));

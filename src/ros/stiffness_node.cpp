@@ -17,6 +17,7 @@ StiffnessNode::StiffnessNode(const ros::NodeHandle& node, const ros::NodeHandle&
       parameters_(loadNodeParameters(private_node)),
       estimator_(parameters_.scene, parameters_.model, parameters_.estimator),
       pose_output_(private_node, "tip_pose", parameters_.frames),
+      contact_(private_node, parameters_),
       diagnostics_(node, private_node),
       wrench_input_(
           node, "tip_wrench", parameters_.frames, parameters_.tip_wrench_timeout,
@@ -27,20 +28,25 @@ StiffnessNode::StiffnessNode(const ros::NodeHandle& node, const ros::NodeHandle&
           [this](const Pressures& pressures, const ros::Time& stamp) { onPressures(pressures, stamp); },
           [this](const std::string& fault) { input_fault_ = fault; }),
       tracker_input_(node, parameters_,
-                     [this](const Pose& X_BT, const ros::Time& stamp) { onMeasuredTip(X_BT, stamp); }),
-      services_(private_node, estimator_.model(), parameters_.frames, [this] { return newest(); }) {
+                     [this](const Pose& X_AS, const Pose& measured_X_BT, const ros::Time& stamp) {
+                       onTracked(X_AS, measured_X_BT, stamp);
+                     }),
+      services_(private_node, estimator_.model(), parameters_.frames, [this] { return newest(); }),
+      registration_(private_node, estimator_.model(), parameters_,
+                    [this](const Registration& registration) {
+                      parameters_.registration = registration;
+                      contact_.reset();
+                    }) {
   marker_style_.frame = parameters_.frames.base;
   marker_style_.ellipsoid_scale = parameters_.ellipsoid_scale;
   estimate_publisher_ = private_node_.advertise<StiffnessEstimate>("estimate", 10);
   error_publisher_ = private_node_.advertise<TrackingError>("tracking_error", 10);
-  wrench_publisher_ = private_node_.advertise<geometry_msgs::WrenchStamped>("tip_wrench_estimate", 10);
   backbone_publisher_ = private_node_.advertise<nav_msgs::Path>("backbone", 1);
   marker_publisher_ = private_node_.advertise<visualization_msgs::MarkerArray>("markers", 1);
-  static_tf_broadcaster_.sendTransform(
-      toTransform(parameters_.registration.X_AB, ros::Time::now(), parameters_.tracker_frame, parameters_.frames.base));
   diagnostics_.setHardwareID("live_stiffness");
   diagnostics_.add("Pressures", &pressure_input_, &PressureInput::diagnose);
   diagnostics_.add("Tracker", this, &StiffnessNode::diagnoseTracker);
+  diagnostics_.add("Contact", &contact_, &ContactOutput::diagnose);
   diagnostics_.add("Solver", this, &StiffnessNode::diagnoseSolver);
   if (parameters_.tip_handle.enabled)
     tip_handle_ = std::make_unique<TipHandle>(private_node_, estimator_.model(), marker_style_, parameters_.tip_handle,
@@ -57,6 +63,7 @@ StiffnessNode::StiffnessNode(const ros::NodeHandle& node, const ros::NodeHandle&
 void StiffnessNode::onPressures(const Pressures& pressures, const ros::Time& stamp) {
   pressure_stamp_ = stamp;
   input_fault_.clear();
+  registration_.addPressures(pressures, stamp);
   react(estimator_.setPressures(pressures));
 }
 
@@ -85,16 +92,16 @@ void StiffnessNode::onHeartbeat(const ros::TimerEvent&) {
   else react(estimator_.solve());
 }
 
-void StiffnessNode::onMeasuredTip(const Pose& measured_X_BT, const ros::Time& stamp) {
+void StiffnessNode::onTracked(const Pose& X_AS, const Pose& measured_X_BT, const ros::Time& stamp) {
+  registration_.addPose(X_AS, estimator_.tipWrench(), contact_.inContact(), stamp);
   if (estimator_.estimate() == nullptr || isStale()) return;
   const Estimate& estimate = *estimator_.estimate();
   const Twist residual = residualTwist(measured_X_BT, estimate.solution.X_BT);
   tracking_error_ = linear(residual).norm();
   error_publisher_.publish(
       toTrackingError(measured_X_BT, estimate.solution.X_BT, residual, stamp, parameters_.frames.base));
-  Wrench tip_wrench = estimate.tip_wrench;  // the residual is what the known wrench does not explain
-  linear(tip_wrench) += estimateTipForce(estimate.solution.compliance, residual).force;
-  if (tip_wrench.allFinite()) wrench_publisher_.publish(toWrenchStamped(tip_wrench, stamp, parameters_.frames.base));
+  contact_.update(estimator_.pressures(), estimate.tip_wrench, tracker_input_.repeatsItself() ? nullptr : &measured_X_BT,
+                  stamp);
 }
 
 void StiffnessNode::onMarkers(const ros::TimerEvent&) {
@@ -105,11 +112,12 @@ void StiffnessNode::onMarkers(const ros::TimerEvent&) {
   if (samples.empty()) return;
   visualization_msgs::MarkerArray markers =
       makeMarkers(estimate, samples, tracker_input_.freshTip(), isStale(), marker_style_, estimate_stamp_);
-  if (parameters_.show_eigenscrews) {
-    const visualization_msgs::MarkerArray screws = makeEigenscrewMarkers(
-        estimate, isStale(), parameters_.eigenscrew_length, marker_style_, estimate_stamp_);
-    markers.markers.insert(markers.markers.end(), screws.markers.begin(), screws.markers.end());
-  }
+  const auto add = [&](const visualization_msgs::MarkerArray& more) {
+    markers.markers.insert(markers.markers.end(), more.markers.begin(), more.markers.end());
+  };
+  add(contact_.markers(marker_style_, estimate_stamp_));
+  if (parameters_.show_eigenscrews)
+    add(makeEigenscrewMarkers(estimate, isStale(), parameters_.eigenscrew_length, marker_style_, estimate_stamp_));
   marker_publisher_.publish(markers);
   if (tip_handle_) tip_handle_->update();
   backbone_publisher_.publish(toPath(samples, estimate.solution.X_BT, estimate_stamp_, parameters_.frames.base));

@@ -52,11 +52,10 @@ void TrackerInput::take(const Reading<TrackedPose>& reading) {
   const Pose& X_AS = reading.value.pose;
   if (!watch_.everAccepted() || X_AS.p != X_AS_.p || X_AS.R != X_AS_.R) last_change_ = now;
   X_AS_ = X_AS;
-  const Registration& registration = parameters_.registration;
-  X_BT_ = registration.X_AB.inverse() * X_AS * registration.X_TS.inverse();
+  X_BT_ = parameters_.registration.tipPose(X_AS);
   const ros::Time stamp = watch_.stampFor(reading.stamp, now);
   watch_.accept(now);
-  on_tip_(X_BT_, stamp);
+  on_tip_(X_AS, X_BT_, stamp);
 }
 
 std::optional<Pose> TrackerInput::freshTip() const {
@@ -66,15 +65,14 @@ std::optional<Pose> TrackerInput::freshTip() const {
 
 void TrackerInput::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const ros::Time now = ros::Time::now();
-  const double unchanged = (now - last_change_).toSec();
   if (!watch_.currentFault().empty())
     status.summary(DiagnosticStatus::WARN, watch_.currentFault());
   else if (!watch_.everAccepted())
     status.summary(DiagnosticStatus::WARN, "no tracker pose received yet; estimates do not need it");
   else if (watch_.age(now) > parameters_.pose_timeout)
     status.summaryf(DiagnosticStatus::WARN, "tracker pose is stale: %.1f s old", watch_.age(now));
-  else if (unchanged > parameters_.pose_timeout)
-    status.summaryf(DiagnosticStatus::WARN, "tracker repeats the same pose for %.1f s: sensor lost?", unchanged);
+  else if (repeatsItself())
+    status.summaryf(DiagnosticStatus::WARN, "tracker repeats the same pose for %.1f s: sensor lost?", unchangedFor());
   else if (X_AS_.p.norm() > kPlausibleReach)
     status.summary(DiagnosticStatus::WARN, "position is metres away: millimetres? (set ~aurora_position_unit: mm)");
   else

@@ -179,6 +179,25 @@ TEST(RigModel, TipWrenchPushesTheTip) {
   EXPECT_GT(pushed.X_BT.p.x() - free.X_BT.p.x(), 1e-4);
 }
 
+TEST(RigModel, ContactMovesTheTipAsTheSameDeadWrenchDoesAndOnlyWhileItLasts) {
+  RigOptions o = ideal();
+  const RigSample free = RigModel(scene(), o).step(7.0);
+  o.contact.wrench << 0.2, -0.1, 0.05, 0.0, 1e-3, 0.0;
+  o.contact.start = 5.0;
+  o.contact.duration = 4.0;
+  RigModel touched(scene(), o);
+  EXPECT_EQ(touched.step(4.9).contact_wrench, Wrench::Zero());
+  const RigSample pushed = touched.step(7.0), released = touched.step(9.5);
+  EXPECT_EQ(pushed.contact_wrench, o.contact.wrench);
+  EXPECT_LT((pushed.X_BT.R * linear(pushed.sensedContact()) - linear(o.contact.wrench)).norm(), 1e-15);
+  EXPECT_GT((pushed.X_BT.p - free.X_BT.p).norm(), 1e-3);
+  RigOptions dead = ideal();
+  dead.tip_wrench = o.contact.wrench;
+  // The same equilibria, to the tolerance of Newton's method.
+  EXPECT_LT((pushed.X_BT.p - RigModel(scene(), dead).step(7.0).X_BT.p).norm(), 1e-9);
+  EXPECT_LT((released.X_BT.p - RigModel(scene(), ideal()).step(9.5).X_BT.p).norm(), 1e-9);
+}
+
 TEST(RigModel, RefusesBadOptionsAllAtOnce) {
   RigOptions o = options();
   o.program.amplitude = -1.0;
@@ -195,12 +214,13 @@ TEST(RigModel, RefusesBadOptionsAllAtOnce) {
   o.registration.X_AB.R.setZero();
   o.registration.X_TS.p.x() = std::nan("");
   o.tip_wrench[2] = std::numeric_limits<double>::infinity();
+  o.contact.duration = 0.0;
   o.channel_of_chamber = {0, 2};  // wrong number, and channel 1 feeds nothing
   try {
     RigModel(scene(), o);
     FAIL() << "accepted";
   } catch (const ConfigurationError& error) {
-    EXPECT_EQ(error.faults().size(), 16u) << error.what();
+    EXPECT_EQ(error.faults().size(), 18u) << error.what();
   }
 }
 

@@ -167,6 +167,21 @@ TEST_F(MarkersTest, GhostHasAShapeAnArrowAsLongAsTheForceAndAText) {
   EXPECT_EQ(find(array, "ghost_text", 0).text, "0.4 N");
 }
 
+TEST_F(MarkersTest, ContactIsAnArrowThatEndsAtTheTipWithItsSizeAndGoesWithTheContact) {
+  const Vector3 tip(0.01, 0.0, 0.04), force(0.3, 0.0, -0.4);
+  const MarkerArray touched = makeContactMarkers(tip, force, 0.03, true, 20.0, style_, ros::Time());
+  const Marker& arrow = find(touched, "contact", 0);
+  ASSERT_EQ(arrow.points.size(), 2u);
+  EXPECT_EQ(arrow.points[1].x, tip.x());
+  EXPECT_NEAR(arrow.points[1].z - arrow.points[0].z, -0.02, 1e-12) << "-0.4 N at 20 N/m";
+  EXPECT_EQ(find(touched, "contact", 1).text, "0.50 +- 0.03 N");
+  EXPECT_EQ(arrow.action, Marker::ADD);
+  const MarkerArray free = makeContactMarkers(tip, force, 0.03, false, 20.0, style_, ros::Time());
+  for (const Marker& marker : free.markers) EXPECT_EQ(marker.action, Marker::DELETE);
+  const MarkerArray huge = makeContactMarkers(tip, 1e6 * force, 0.03, true, 20.0, style_, ros::Time());
+  EXPECT_LT(std::abs(find(huge, "contact", 0).points[0].z), 0.3) << "kept within what can be drawn";
+}
+
 TEST_F(MarkersTest, GhostWithoutAnEquilibriumIsATextAlone) {
   Ghost ghost;
   ghost.text = "no stable equilibrium there";

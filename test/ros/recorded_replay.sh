@@ -14,5 +14,5 @@ scene=$source/config/scenes/stiff_flop_recorded.yaml
 "$build/devel/lib/live_stiffness/recording_to_bag" "$recording" "$work/$name.bag" \
   --scene "$scene" --registration "$work/registration.yaml"
 # The hand-tuned scene: mean tip error over all samples below 1.5 mm.
-rostest --results-filename="$name.xml" --text "$source/test/ros/replay.test" bag:="$work/$name.bag" scene:="$scene" \
+rostest --results-filename="$name.xml" "$source/test/ros/replay.test" bag:="$work/$name.bag" scene:="$scene" \
   registration:="$work/registration.yaml" speed:=5 name:="recorded_$name" max_mean_error_m:=0.0015

@@ -20,18 +20,19 @@ class CreepFilterOf {
   CreepFilterOf(const T& share, const T& time) : share_(share), time_(time) {}
 
   // Effective pressures, Pa, for pressures that held since the last call, `elapsed` s ago. The first call settles the
-  // filter: its pressures are taken to have been there for long.
-  Values update(PressuresRef pressures, double elapsed) {
+  // filter: its pressures are taken to have been there for long. Allocates only then.
+  const Values& update(PressuresRef pressures, double elapsed) {
     using std::exp;
     if (late_.size() != pressures.size()) late_ = pressures.cast<T>();
     else late_ += (pressures.cast<T>() - late_) * T(1.0 - exp(-elapsed / time_));
-    return pressures.cast<T>() * T(1.0 - share_) + late_ * share_;
+    effective_ = pressures.cast<T>() * T(1.0 - share_) + late_ * share_;
+    return effective_;
   }
   void reset() { late_.resize(0); }
 
  private:
   T share_, time_;
-  Values late_;  // y, Pa
+  Values late_, effective_;  // y and P_eff, Pa
 };
 using CreepFilter = CreepFilterOf<double>;
 

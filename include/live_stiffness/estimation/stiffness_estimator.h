@@ -46,6 +46,9 @@ class StiffnessEstimator {
 
   // The last good estimate; nullptr before the first.
   const Estimate* estimate() const { return has_estimate_ ? &estimate_ : nullptr; }
+  // The newest pressures (empty: none yet) and tip wrench that were set.
+  const Pressures& pressures() const { return newest_pressures_; }
+  const Wrench& tipWrench() const { return newest_wrench_; }
   // Status of the newest solve; unless ok, estimate() is of earlier pressures.
   const SolveStatus& status() const { return status_; }
   std::string statusText() const { return status_.ok() ? "" : model_.describe(status_); }

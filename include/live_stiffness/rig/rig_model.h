@@ -2,6 +2,8 @@
 // A simulated rig: regulators, a robot that creeps, and a noisy tracker. Plays what the node would see, and the truth.
 //
 //   command --lag--> measured --+ slow error--> actual --creep--> effective --FineRobot--> X_BT --tracker--> X_AS
+//                                                                               |
+//                                                              tip_wrench + contact
 //
 // The regulator holds its own reading on the command after a lag, so its reading is what a driver publishes
 // (`measured`); the slow error is that of its sensor, and only the robot feels it.
@@ -12,6 +14,7 @@
 #include <vector>
 
 #include "live_stiffness/estimation/registration.h"
+#include "live_stiffness/rig/contact.h"
 #include "live_stiffness/rig/fine_robot.h"
 #include "live_stiffness/rig/first_order_lag.h"
 #include "live_stiffness/rig/pressure_program.h"
@@ -44,6 +47,7 @@ struct RigOptions {
   double drop_out_duration = 0.5;     // s; 0 to 3600
 
   Wrench tip_wrench = Wrench::Zero();  // dead wrench at T, base axes, N and N m; finite
+  ContactOptions contact;              // what pushes the tip beside it now and then
 };
 
 struct RigSample {
@@ -54,7 +58,11 @@ struct RigSample {
   std::optional<Pose> X_AS;      // tracker sample; empty during a drop-out
   Pressures actual_chambers;     // truth: gauge, Pa, never negative (a regulator cannot pull)
   Pressures effective_chambers;  // truth: after creep
+  Wrench contact_wrench;         // truth: what the pusher exerts at T, base axes; its moment is about T
   Pose X_BT;                     // truth
+
+  // Truth, as a force sensor between pusher and tip measures it: contact_wrench in axes of T.
+  Wrench sensedContact() const { return wrenchAdjoint({X_BT.R.transpose(), Vector3::Zero()}) * contact_wrench; }
 };
 
 class RigModel {
@@ -70,7 +78,7 @@ class RigModel {
   // Takes the rig from the last time to `time` (s) and returns what is seen there. The first call starts from rest at
   // time 0. Equal seeds and equal times give equal samples. Between two calls the command counts as linear, so steps
   // of at most a tenth of the program's period keep its shape. Throws std::invalid_argument if time is not finite,
-  // negative or goes backwards, std::runtime_error if the robot finds no equilibrium (buckled under its tip wrench).
+  // negative or goes backwards, std::runtime_error if the robot finds no equilibrium (buckled under its wrenches).
   RigSample step(double time);
 
  private:
@@ -84,6 +92,7 @@ class RigModel {
   FineRobot robot_;
   FirstOrderLag regulator_;  // of channels
   FirstOrderLag creep_;      // of chambers
+  Contact contact_;
   std::vector<Vector3> error_phases_;  // rad, three components per channel
   double time_ = 0.0;
   double drop_out_until_ = -1.0;  // s

@@ -7,7 +7,9 @@
 #include <live_stiffness/ChamberPressures.h>
 #include <live_stiffness/PlatformEstimate.h>
 #include <live_stiffness/PredictDeflection.h>
+#include <live_stiffness/Register.h>
 #include <live_stiffness/StiffnessEstimate.h>
+#include <live_stiffness/TipContact.h>
 #include <live_stiffness/TrackingError.h>
 #include <nav_msgs/Path.h>
 #include <sensor_msgs/FluidPressure.h>
@@ -18,7 +20,9 @@
 #include "live_stiffness/analysis/deflection.h"
 #include "live_stiffness/checks.h"
 #include "live_stiffness/estimation/parallel_estimator.h"
+#include "live_stiffness/estimation/registration_buffer.h"
 #include "live_stiffness/estimation/stiffness_estimator.h"
+#include "live_stiffness/estimation/tip_wrench_estimator.h"
 
 namespace live_stiffness {
 
@@ -96,6 +100,12 @@ StiffnessEstimate toEstimate(const Estimate& estimate, const ros::Time& stamp, c
 PlatformEstimate toEstimate(const ParallelEstimate& estimate, const ros::Time& stamp, const std::string& frame);
 // The deflection, as far as it was found; success, message, stale and header stay.
 void fillDeflection(const DeflectionCheck& check, PredictDeflection::Response& response);
+
+// known: the wrench at T that the model is given; fault: what is wrong, empty if nothing.
+TipContact toTipContact(const TipWrenchEstimate& estimate, const Wrench& known, const std::string& fault,
+                        const ros::Time& stamp, const std::string& frame);
+// A fit; success, message, applied and saved_to stay.
+void fillRegistration(const LiveRegistration& result, Register::Response& response);
 
 // A 6x6 matrix, row by row.
 template <class Array>

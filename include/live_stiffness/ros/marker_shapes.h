@@ -36,6 +36,10 @@ void setEllipsoid(visualization_msgs::Marker& marker, const Ellipsoid& ellipsoid
 void setBall(visualization_msgs::Marker& marker, const Vector3& centre, double diameter,
              const std_msgs::ColorRGBA& shade);
 
+// ARROW from one place to another, or removed if they are less than 0.1 mm apart.
+void setArrow(visualization_msgs::Marker& marker, const Vector3& from, const Vector3& to,
+              const std_msgs::ColorRGBA& shade);
+
 // TEXT_VIEW_FACING of this height, m.
 void setText(visualization_msgs::Marker& marker, const Vector3& place, double height, const std::string& text);
 

@@ -25,6 +25,12 @@ visualization_msgs::MarkerArray makeMarkers(const Estimate& estimate, const std:
 visualization_msgs::MarkerArray makeEigenscrewMarkers(const Estimate& estimate, bool stale, double length,
                                                       const MarkerStyle& style, const ros::Time& stamp);
 
+// Namespace `contact`: an arrow that pushes the tip (base frame, m) with the force estimated there (base axes, N),
+// force_n_per_m newton a metre of length, and its size with the standard deviation (N) of it. Removed unless in contact.
+visualization_msgs::MarkerArray makeContactMarkers(const Vector3& tip, const Vector3& force, double deviation,
+                                                   bool in_contact, double force_n_per_m, const MarkerStyle& style,
+                                                   const ros::Time& stamp);
+
 // The robot as it would be under a wrench.
 struct Ghost {
   std::vector<Pose> shape;          // sections, base to tip; empty: there is no equilibrium to show

@@ -9,6 +9,7 @@
 #include "live_stiffness/compliance/model_options.h"
 #include "live_stiffness/estimation/registration.h"
 #include "live_stiffness/estimation/stiffness_estimator.h"
+#include "live_stiffness/estimation/tip_wrench_options.h"
 #include "live_stiffness/ros/conversions.h"
 #include "live_stiffness/ros/tip_handle.h"
 #include "live_stiffness/section/channel_map.h"
@@ -31,8 +32,13 @@ struct NodeParameters {
   std::string sensor_frame;     // the tracker's name of the sensor, also accepted as frame_id
   std::string tracker_tf_frame;  // look the sensor up in tf under this name instead of a topic; empty: topic
   double pose_timeout = 1.0;    // s
-  Registration registration;
+  Registration registration;          // in use: loaded, until ~register applies another one
+  std::string registration_file;      // that it was loaded from; empty: none
+  double registration_buffer = 120.0;  // s of the past that ~register can use
   double tip_wrench_timeout = 1.0;  // s; 0: keep the last one for ever
+
+  TipWrenchOptions contact;
+  double contact_arrow_scale = 20.0;  // of the arrow drawn, N/m
 
   FrameNames frames;  // B, and T as predicted
   double ellipsoid_scale = 0.3;  // m of half axis per m/N, that is, the force in N whose displacement is drawn

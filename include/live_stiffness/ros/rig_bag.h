@@ -9,6 +9,9 @@
 
 namespace live_stiffness {
 
+// frame_id of tip_force_torque. Of the simulated rig: at T, with axes of T, in the sense "on the robot".
+constexpr char kForceSensorFrame[] = "tip_force_sensor";
+
 class RigBag {
  public:
   // Creates the file; throws ConfigurationError with path and reason if that fails. tracker_frame: frame_id of poses.
@@ -18,8 +21,8 @@ class RigBag {
   void write(PressuresRef channel_pressures, const ros::Time& stamp);
   // Pose of the sensor in the tracker's frame, on aurora_pose.
   void write(const Pose& X_AS, const ros::Time& stamp);
-  // A wrench in the force sensor's own axes, on tip_force_torque with frame_id tip_force_sensor. Not on tip_wrench: the
-  // node would take it as the wrench at T, and the sensor's axes and sign must be known for that.
+  // A wrench in the force sensor's own axes, on tip_force_torque with frame_id kForceSensorFrame. Not on tip_wrench:
+  // the node would take it as the wrench at T, and the sensor's axes and sign must be known for that.
   void writeForceTorque(const Wrench& wrench, const ros::Time& stamp);
 
  private:

@@ -14,7 +14,7 @@ struct RigParameters {
   RigOptions options;
   double rate = 40.0;         // samples per second
   std::string tracker_frame;  // frame_id of the tracker's poses
-  std::string base_frame;     // frame_id of the true tip pose
+  std::string base_frame;     // frame_id of the true tip pose and of the true wrench
 };
 
 // Reads and validates all of them. Throws ConfigurationError with every fault. Warns of unknown ones.

@@ -3,17 +3,17 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
-#include <tf2_ros/static_transform_broadcaster.h>
 
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "live_stiffness/estimation/tip_force.h"
+#include "live_stiffness/ros/contact_output.h"
 #include "live_stiffness/ros/markers.h"
 #include "live_stiffness/ros/node_parameters.h"
 #include "live_stiffness/ros/pose_output.h"
 #include "live_stiffness/ros/pressure_input.h"
+#include "live_stiffness/ros/registration_service.h"
 #include "live_stiffness/ros/stiffness_services.h"
 #include "live_stiffness/ros/tip_handle.h"
 #include "live_stiffness/ros/tracker_input.h"
@@ -28,7 +28,7 @@ class StiffnessNode {
 
  private:
   void onPressures(const Pressures& pressures, const ros::Time& stamp);
-  void onMeasuredTip(const Pose& measured_X_BT, const ros::Time& stamp);
+  void onTracked(const Pose& X_AS, const Pose& measured_X_BT, const ros::Time& stamp);
   void onHeartbeat(const ros::TimerEvent&);
   void onMarkers(const ros::TimerEvent&);
 
@@ -46,9 +46,8 @@ class StiffnessNode {
   StiffnessEstimator estimator_;
   PoseOutput pose_output_;
   MarkerStyle marker_style_;
-  ros::Publisher estimate_publisher_, backbone_publisher_, marker_publisher_, error_publisher_,
-      wrench_publisher_;
-  tf2_ros::StaticTransformBroadcaster static_tf_broadcaster_;
+  ros::Publisher estimate_publisher_, backbone_publisher_, marker_publisher_, error_publisher_;
+  ContactOutput contact_;
   diagnostic_updater::Updater diagnostics_;
 
   ros::Time pressure_stamp_;  // of the newest usable pressures
@@ -61,6 +60,7 @@ class StiffnessNode {
   PressureInput pressure_input_;
   TrackerInput tracker_input_;
   StiffnessServices services_;
+  RegistrationService registration_;
   std::unique_ptr<TipHandle> tip_handle_;  // none unless enabled
   std::vector<ros::Timer> timers_;
   ros::WallTimer diagnostics_timer_;  // wall time: a paused or missing clock is just what it must report

@@ -18,13 +18,16 @@ namespace live_stiffness {
 
 class TrackerInput {
  public:
-  using OnTip = std::function<void(const Pose& measured_X_BT, const ros::Time& stamp)>;
+  // X_AS: of the sensor, as the tracker gives it; measured_X_BT: of the tip, by the registration.
+  using OnTip = std::function<void(const Pose& X_AS, const Pose& measured_X_BT, const ros::Time& stamp)>;
 
   // Calls on_tip with each usable measurement. parameters must outlive the input.
   TrackerInput(ros::NodeHandle node, const NodeParameters& parameters, OnTip on_tip);
 
   // The newest measured pose of T in B, if it is not older than pose_timeout.
   std::optional<Pose> freshTip() const;
+  // True if the tracker has said the same for longer than pose_timeout: it has lost its sensor.
+  bool repeatsItself() const { return unchangedFor() > parameters_.pose_timeout; }
   // Call now and then: a subscriber keeps the type of its first publisher, so it is renewed when that one is gone.
   void tend();
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
@@ -32,6 +35,7 @@ class TrackerInput {
  private:
   void onMessage(const topic_tools::ShapeShifter::ConstPtr& message);
   void onTfPoll(const ros::TimerEvent&);
+  double unchangedFor() const { return (ros::Time::now() - last_change_).toSec(); }  // s
   void take(const Reading<TrackedPose>& reading);
 
   ros::NodeHandle node_;

@@ -1,0 +1,119 @@
+#pragma once
+// External tip wrench, live: an iterated extended Kalman filter that fuses the model with the tracker.
+//
+// State: wrench W at T (3 or 6 components), logarithm g of the stiffness scale, twist b of the model error. Measurement:
+//   measured X_BT = (p + b_v, exp(b_w) R),   (R, p) the model's equilibrium under pressures, W and known wrench,
+// whose derivative by W is the tangent compliance at the loaded equilibrium; iterated, so that large deflections are
+// not linearised (Bell and Cathey, "The iterated Kalman filter update as a Gauss-Newton method", IEEE TAC 1993).
+// Creep is taken from the scene (estimation/creep.h); what it leaves is model error. See docs/estimation.md.
+
+#include <string>
+
+#include "live_stiffness/estimation/creep.h"
+#include "live_stiffness/estimation/scaled_model.h"
+#include "live_stiffness/estimation/tip_wrench_options.h"
+
+namespace live_stiffness {
+
+struct TipWrenchEstimate {
+  double time = 0.0;                      // s, of the sample
+  Wrench wrench = Wrench::Zero();         // external dead wrench at T, base axes, N and N m; without the known one
+  Matrix6 covariance = Matrix6::Zero();   // of the wrench; with 3 components the moment's part is zero
+  double stiffness_scale = 1.0;           // factor on all moduli of the scene, -
+  double stiffness_scale_deviation = 0.0; // standard deviation, -
+  bool contact = false;                   // with hysteresis
+  Pose X_BT;                              // corrected tip pose: equilibrium under the estimate, and model error added, m
+  Twist model_error = Twist::Zero();      // b, m and rad, base axes
+  StiffnessSolution solution;             // equilibrium at the estimated wrench (known one included) and scale; its
+                                          // compliance is the corrected compliance
+  bool outlier = false;                   // the newest pose was left out; the rest is a prediction
+  bool tracked = true;                    // false: no pose came with this update; the rest is a prediction
+  double innovation = 0.0;                // of the newest pose, in standard deviations of what was expected
+  int iterations = 0;                     // of the measurement update; 0 in predictions
+};
+
+enum class TipWrenchCode {
+  kOk = 0,
+  kInvalidInput = 1,   // not finite, wrong number of pressures, or a rotation that is none: refused
+  kTimeBackwards = 2,  // not after the last sample: refused
+  kRestarted = 3,      // time jumped back by more than kRestartAfter: began anew with this sample
+  kOutlier = 4,        // pose beyond the gate: predicted only
+  kSolveFailed = 5,    // the model has no solution there (status()): the last good estimate is kept
+};
+const char* codeName(TipWrenchCode code);  // "ok", "invalid_input", "time_backwards", "restarted", "outlier", ...
+
+class TipWrenchEstimator {
+ public:
+  static constexpr int kMaxIterations = 8;        // of a measurement update
+  static constexpr double kRestartAfter = 1.0;    // s
+
+  // Throws ConfigurationError (all faults) on bad options or scene. Creep is that of the first segment.
+  TipWrenchEstimator(Scene scene, const ModelOptions& model_options, const TipWrenchOptions& options);
+
+  // A sample: gauge pressures (Pa, one per chamber), measured tip pose (m; through the registration) and time (s,
+  // increasing). True if estimate() is of this sample, outliers included; else see code(). Never throws. Bounded work:
+  // at most 4 (kMaxIterations + 2) solves; no allocation once running while the stiffness scale stands still.
+  bool update(PressuresRef gauge_pressures, const Pose& measured_X_BT, double time);
+  // The same without a pose (drop-out): predicts, and the covariance grows.
+  bool predict(PressuresRef gauge_pressures, double time);
+
+  // Known dead wrench at T (base axes; weight of a tool, say), from the next sample on. Refused (false) unless finite.
+  bool setKnownWrench(const Wrench& known);
+  // Forgets everything but options, scene and known wrench.
+  void reset();
+
+  // The last good estimate; nullptr before the first.
+  const TipWrenchEstimate* estimate() const { return has_estimate_ ? &estimate_ : nullptr; }
+  TipWrenchCode code() const { return code_; }                       // of the newest call
+  const SolveStatus& status() const { return status_; }              // of the newest solve
+  std::string statusText() const;                                    // "" when ok, else the reason and the way out
+  const StiffnessModel& model() const { return model_.model(); }     // at the current scale
+
+ private:
+  static constexpr int kMaxStates = 13;
+  using State = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxStates, 1>;
+  using StateMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxStates, kMaxStates>;
+  using Design = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, kMaxStates>;
+  struct Prediction {
+    State x;
+    StateMatrix P;
+  };
+  struct Correction {
+    Prediction posterior;
+    StiffnessSolution solution;
+    double innovation = 0.0;  // standard deviations
+    int iterations = 0;
+  };
+
+  int scaleIndex() const { return options_.components; }
+  int biasIndex() const { return options_.components + 1; }
+  bool accept(PressuresRef pressures, double time);
+  void begin();
+  bool step(PressuresRef pressures, const Pose* measured, double time);
+  Prediction predictState(double elapsed, double pressure_change, bool contact) const;
+  bool solveAt(const State& x, StiffnessSolution& solution);
+  bool correct(const Pose& measured, const Prediction& prior, bool learn_scale, Correction& result);
+  bool isOutlier(const Pose& measured, double innovation);
+  Pose withModelError(const Pose& X_BT, const State& x) const;
+  void publish(const StiffnessSolution& solution, double time);
+  Wrench wrenchOf(const State& x) const;
+
+  TipWrenchOptions options_;
+  ScaledModel model_;
+  CreepFilter creep_;
+  ContactDetector contact_;
+  Wrench known_ = Wrench::Zero();
+
+  State x_;
+  StateMatrix P_;
+  Pressures pressures_, effective_;  // of the last sample, Pa: as given, and after creep
+  double time_ = 0.0;                // of the last sample, s
+  bool started_ = false, has_estimate_ = false;
+  int outliers_ = 0;                 // in a row that agree with one another
+  Pose last_outlier_;
+  TipWrenchCode code_ = TipWrenchCode::kOk;
+  SolveStatus status_;
+  TipWrenchEstimate estimate_;
+};
+
+}  // namespace live_stiffness

@@ -1,0 +1,47 @@
+#pragma once
+// ~register: registers base and sensor from the recent past of the running robot; and the tf tracker -> base.
+
+#include <live_stiffness/Register.h>
+#include <ros/node_handle.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+
+#include <functional>
+#include <string>
+
+#include "live_stiffness/estimation/registration_buffer.h"
+#include "live_stiffness/ros/node_parameters.h"
+
+namespace live_stiffness {
+
+class RegistrationService {
+ public:
+  using OnApply = std::function<void(const Registration& registration)>;
+
+  // Advertises ~register and publishes the transform of the parameters' registration. Calls on_apply with one that is
+  // to be used from then on. model and parameters must outlive this.
+  RegistrationService(ros::NodeHandle private_node, const StiffnessModel& model, const NodeParameters& parameters,
+                      OnApply on_apply);
+  RegistrationService(const RegistrationService&) = delete;  // callbacks refer to it
+
+  // As those of RegistrationBuffer.
+  void addPressures(PressuresRef pressures, const ros::Time& stamp) { buffer_.addPressures(pressures, stamp.toSec()); }
+  void addPose(const Pose& X_AS, const Wrench& tip_wrench, bool in_contact, const ros::Time& stamp) {
+    buffer_.addPose(X_AS, tip_wrench, in_contact, stamp.toSec());
+  }
+
+  // Always true; a request that cannot be fulfilled has success = false.
+  bool answer(Register::Request& request, Register::Response& response);
+
+ private:
+  void sendTransform(const Registration& registration);
+  bool save(const std::string& path, const Registration& registration, const std::string& comment,
+            Register::Response& response) const;
+
+  const NodeParameters& parameters_;
+  OnApply on_apply_;
+  RegistrationBuffer buffer_;
+  tf2_ros::StaticTransformBroadcaster broadcaster_;
+  ros::ServiceServer server_;
+};
+
+}  // namespace live_stiffness

@@ -1,0 +1,139 @@
+// estimate_wrench SCENE RECORDING --registration FILE > OUT.csv: external tip wrench over a recording, as the live
+// estimator would have seen it, beside the force sensor where there is one; and what one update costs.
+
+#include <algorithm>
+#include <boost/program_options.hpp>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <iostream>
+
+#include "any_recording.h"
+#include "live_stiffness/calibration/calibration.h"
+#include "live_stiffness/estimation/tip_wrench_estimator.h"
+#include "live_stiffness/rod/scene_file.h"
+
+namespace po = boost::program_options;
+using namespace live_stiffness;
+
+namespace {
+
+const char* const kHelp =
+    "estimate_wrench SCENE.yaml RECORDING.csv|.bag --registration FILE [--output OUT.csv] ...\n\n"
+    "Writes, per sample: estimated wrench at the tip point T in base axes, its standard deviation, contact, innovation,\n"
+    "stiffness scale, and the recorded force (base axes, acting on the robot) if there is one. Cost of an update on\n"
+    "standard error.\n\n";
+
+void writeHeader(std::ostream& out) {
+  out << "time_s";
+  for (const char* prefix : {"estimated", "deviation", "measured"})
+    for (const char* name : {"force_x_n", "force_y_n", "force_z_n", "moment_x_nm", "moment_y_nm", "moment_z_nm"})
+      out << ',' << prefix << '_' << name;
+  out << ",contact,status,innovation_sigmas,stiffness_scale,stiffness_scale_deviation,model_error_m,iterations\n";
+}
+
+void writeRow(std::ostream& out, double time, const TipWrenchEstimator& estimator, const std::optional<Wrench>& measured) {
+  const TipWrenchEstimate* e = estimator.estimate();
+  out << time;
+  const auto cell = [&](bool known, double value) {
+    out << ',';
+    if (known) out << value;
+  };
+  for (int k = 0; k < 6; ++k) cell(e != nullptr, e ? e->wrench[k] : 0.0);
+  for (int k = 0; k < 6; ++k) cell(e != nullptr, e ? std::sqrt(std::max(0.0, e->covariance(k, k))) : 0.0);
+  for (int k = 0; k < 6; ++k) cell(measured.has_value(), measured ? (*measured)[k] : 0.0);
+  out << ',' << (e != nullptr && e->contact) << ',' << codeName(estimator.code());
+  cell(e != nullptr, e ? e->innovation : 0.0);
+  cell(e != nullptr, e ? e->stiffness_scale : 0.0);
+  cell(e != nullptr, e ? e->stiffness_scale_deviation : 0.0);
+  cell(e != nullptr, e ? linear(e->model_error).norm() : 0.0);
+  cell(e != nullptr, e ? e->iterations : 0);
+  out << '\n';
+}
+
+void run(const std::string& scene_path, const std::string& recording_path, const std::string& registration_path,
+         const std::string& output, const ForceSensorMount& mount, const TipWrenchOptions& options) {
+  const Scene scene = loadSceneFile(scene_path);
+  const Registration registration = loadRegistrationFile(registration_path);
+  const Recording recording = loadAnyRecording(recording_path);
+  const ChannelMap channels = ChannelMap::even(recording.channelCount(), scene.chamberCount());
+  const std::vector<Pressures> gauge = gaugePressures(recording);
+  ModelOptions model;
+  model.stepping = Stepping::kContinuous;
+  TipWrenchEstimator estimator(scene, model, options);
+  std::ofstream file;
+  if (!output.empty()) {
+    file.open(output);
+    if (!file) throw ConfigurationError("output " + output, {"cannot be written: is its folder there?"});
+  }
+  std::ostream& out = output.empty() ? std::cout : file;
+  out.precision(6);
+  writeHeader(out);
+  std::vector<double> microseconds;
+  for (size_t i = 0; i < recording.samples.size(); ++i) {
+    const RecordedSample& sample = recording.samples[i];
+    const Pose X_BT = registration.tipPose(sample.tipPose());
+    const Pressures chambers = channels.expand(gauge[i]);
+    const auto start = std::chrono::steady_clock::now();
+    estimator.update(chambers, X_BT, sample.time);
+    microseconds.push_back(1e6 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    std::optional<Wrench> measured;
+    if (sample.tip_wrench) measured = mount.atTip(*sample.tip_wrench, X_BT.R);
+    writeRow(out, sample.time, estimator, measured);
+  }
+  std::sort(microseconds.begin(), microseconds.end());
+  const auto at = [&](double share) { return microseconds[static_cast<size_t>(share * (microseconds.size() - 1))]; };
+  std::cerr << "one update: median " << numberText(at(0.5)) << " us, 99 % below " << numberText(at(0.99)) << " us, slowest "
+            << numberText(at(1.0)) << " us (" << microseconds.size() << " samples)\n";
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::string scene, recording, registration, output;
+  ForceSensorMount mount;
+  double azimuth_deg = 0.0;
+  TipWrenchOptions filter;
+  double per_bar_m = 1e5 * filter.bias_position_per_pressure, per_bar_deg = 1e5 * degrees(filter.bias_rotation_per_pressure);
+  po::options_description options("Options");
+  options.add_options()
+    ("help,h", "print this and exit")
+    ("scene", po::value(&scene)->required(), "scene of the recorded robot")
+    ("recording", po::value(&recording)->required(), "CSV recording, or a bag")
+    ("registration", po::value(&registration)->required(), "registration file, as register_recording writes it")
+    ("output,o", po::value(&output), "CSV file to write (standard output)")
+    ("components", po::value(&filter.components)->default_value(3), "3 (force at T) or 6 (and moment)")
+    ("position-sigma-m", po::value(&filter.tracker.position)->default_value(filter.tracker.position), "tracker noise per axis")
+    ("rotation-sigma-rad", po::value(&filter.tracker.rotation)->default_value(filter.tracker.rotation), "tracker noise per axis")
+    ("bias-position-m", po::value(&filter.bias_position)->default_value(filter.bias_position), "slow model error per axis")
+    ("bias-rotation-rad", po::value(&filter.bias_rotation)->default_value(filter.bias_rotation), "slow model error per axis")
+    ("bias-time-s", po::value(&filter.bias_time)->default_value(filter.bias_time), "time in which it changes, no contact")
+    ("bias-position-per-bar-m", po::value(&per_bar_m)->default_value(per_bar_m), "slow model error after a change of pressure")
+    ("bias-rotation-per-bar-deg", po::value(&per_bar_deg)->default_value(per_bar_deg), "the same, rotation")
+    ("contact-force-n", po::value(&filter.contact_force)->default_value(filter.contact_force), "size of forces to expect")
+    ("force-walk", po::value(&filter.force_walk)->default_value(filter.force_walk), "how fast they change, N / sqrt(s)")
+    ("scale-deviation", po::value(&filter.scale_deviation)->default_value(filter.scale_deviation),
+     "uncertainty of the logarithm of the stiffness scale; 0: not adapted")
+    ("force-sensor-azimuth-deg", po::value(&azimuth_deg)->default_value(0.0), "force sensor's turn about z of T")
+    ("force-sensor-height-m", po::value(&mount.height)->default_value(0.0), "force sensor's origin above T")
+    ("force-sensor-sign", po::value(&mount.sign)->default_value(1.0), "-1: it reports what the robot exerts");
+  po::positional_options_description positional;
+  positional.add("scene", 1).add("recording", 1);
+  try {
+    po::variables_map values;
+    po::store(po::command_line_parser(argc, argv).options(options).positional(positional).run(), values);
+    if (values.count("help")) {
+      std::cout << kHelp << options;
+      return 0;
+    }
+    po::notify(values);
+    filter.bias_position_per_pressure = 1e-5 * per_bar_m;
+    filter.bias_rotation_per_pressure = 1e-5 * radians(per_bar_deg);
+    mount.azimuth = radians(azimuth_deg);
+    run(scene, recording, registration, output, mount, filter);
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << "estimate_wrench: " << error.what() << "\nSee estimate_wrench --help.\n";
+    return 2;
+  }
+}
