@@ -1,0 +1,94 @@
+// replay BAG: a recorded bag through the estimator without a master, as fast as it goes.
+
+#include <ros/package.h>
+
+#include <boost/program_options.hpp>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include "live_stiffness/rod/scene_file.h"
+#include "live_stiffness/ros/bag_replay.h"
+#include "progress_bar.h"
+
+namespace po = boost::program_options;
+using namespace live_stiffness;
+
+int main(int argc, char** argv) {
+  std::string bag, out, scene, registration, report_path, model = "ncm", pressure_unit = "Pa",
+                                                          pressure_reference = "gauge", position_unit = "m";
+  double accuracy = ModelOptions().accuracy;
+  ReplayOptions replay;
+  po::options_description options("Options");
+  options.add_options()
+    ("help,h", "print this and exit")
+    ("bag", po::value(&bag)->required(), "bag to read")
+    ("scene", po::value(&scene), "scene file of the robot (default: the package's paper_one_segment.yaml)")
+    ("registration", po::value(&registration), "registration file (default: identity)")
+    ("output,o", po::value(&out), "bag to write (default: BAG with .estimates.bag)")
+    ("report", po::value(&report_path), "also write the report here, as Markdown")
+    ("model", po::value(&model)->default_value(model), "lpcc, npcc, lcm or ncm")
+    ("accuracy", po::value(&accuracy)->default_value(accuracy), "relative, 1e-13 to 1e-2")
+    ("update-threshold-pa", po::value(&replay.estimator.update_threshold)->default_value(1000.0),
+     "solve again when the 2-norm of the change of pressure exceeds this")
+    ("pressures", po::value(&replay.pressure_topic)->default_value(replay.pressure_topic), "topic of the pressures")
+    ("pose", po::value(&replay.pose_topic)->default_value(replay.pose_topic), "topic of the tracker")
+    ("tip-wrench", po::value(&replay.wrench_topic)->default_value(replay.wrench_topic), "topic of the known tip wrench")
+    ("pressure-unit", po::value(&pressure_unit)->default_value(pressure_unit), "Pa, kPa, bar, mbar or psi")
+    ("pressure-reference", po::value(&pressure_reference)->default_value(pressure_reference), "gauge or absolute")
+    ("position-unit", po::value(&position_unit)->default_value(position_unit), "m or mm")
+    ("channel-of-chamber", po::value(&replay.channel_of_chamber)->multitoken(),
+     "channel of each chamber, such as 0 0 1 1 2 2 (default: the bag's channels feed neighbours evenly)");
+  po::positional_options_description positional;
+  positional.add("bag", 1);
+  try {
+    po::variables_map values;
+    po::store(po::command_line_parser(argc, argv).options(options).positional(positional).run(), values);
+    if (values.count("help")) {
+      std::cout << "replay BAG [--scene SCENE.yaml] [options]\n\nWrites what stiffness_node would have published to a new "
+                   "bag, and prints a report.\n\n" << options;
+      return 0;
+    }
+    po::notify(values);
+    FaultList faults("options");
+    ModelOptions model_options = namedModelOptions(model, "", faults);
+    faults.check("accuracy", accuracy, {1e-13, 1e-2});
+    faults.check("update-threshold-pa", replay.estimator.update_threshold, Range::nonnegative());
+    replay.pressure_format.unit = pascalsPerUnit(pressure_unit);
+    if (!(replay.pressure_format.unit > 0.0))
+      faults.add("pressure-unit: " + pressure_unit + " is not known: must be Pa, kPa, bar, mbar or psi");
+    replay.pressure_format.absolute = pressure_reference == "absolute";
+    if (pressure_reference != "gauge" && pressure_reference != "absolute")
+      faults.add("pressure-reference: " + pressure_reference + " is not known: must be gauge or absolute");
+    replay.position_unit = position_unit == "mm" ? 1e-3 : 1.0;
+    if (position_unit != "m" && position_unit != "mm")
+      faults.add("position-unit: " + position_unit + " is not known: must be m or mm");
+    for (int channel : replay.channel_of_chamber)
+      if (channel < 0 || channel > 1023)
+        faults.add("channel-of-chamber: " + std::to_string(channel) + ": must be 0 to 1023");
+    faults.throwIfAny();
+    model_options.accuracy = accuracy;
+    if (!registration.empty()) replay.registration = loadRegistrationFile(registration);
+    if (scene.empty()) {
+      const std::string package = ros::package::getPath("live_stiffness");
+      if (package.empty()) throw ConfigurationError("--scene", {"must be given: rospack does not find live_stiffness"});
+      scene = package + "/config/scenes/paper_one_segment.yaml";
+    }
+    if (out.empty()) out = std::filesystem::path(bag).replace_extension(".estimates.bag").string();
+    std::unique_ptr<ProgressBar> bar;
+    const ReplayReport report =
+        replayBag(bag, out, loadSceneFile(scene), model_options, replay, [&](long done, long total) {
+          if (!bar) bar = std::make_unique<ProgressBar>("replaying " + bag, total);
+          bar->update(done);
+        });
+    std::cout << "scene: " << scene << "\n\n";
+    const std::string text = report.text(bag, accuracy);
+    std::cout << text << "\nestimates: " << out << "\n";
+    if (!report_path.empty() && !(std::ofstream(report_path) << text))
+      throw ConfigurationError("report " + report_path, {"cannot be written"});
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << "replay: " << error.what() << "\nSee replay --help.\n";
+    return 2;
+  }
+}

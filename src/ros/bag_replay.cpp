@@ -1,0 +1,250 @@
+#include "live_stiffness/ros/bag_replay.h"
+
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <sstream>
+
+#include "live_stiffness/estimation/tip_force.h"
+
+namespace live_stiffness {
+namespace {
+
+double quantile(std::vector<double>& values, double share) {
+  if (values.empty()) return 0.0;
+  const auto at = values.begin() + std::min<long>(values.size() - 1, static_cast<long>(share * values.size()));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+// Counts the messages of a topic.
+class TopicWatch {
+ public:
+  explicit TopicWatch(const std::string& name) { report_.name = name; }
+
+  // True if the reading can be used.
+  template <class Value>
+  bool take(const Reading<Value>& reading, const ros::Time& stamp) {
+    if (!reading.ok()) return reject(reading.fault);
+    if (report_.usable++ > 0) {
+      const double interval = (stamp - last_).toSec();
+      report_.backward += interval < 0.0;
+      intervals_.push_back(interval);
+      if (interval > report_.longest_gap) report_.longest_gap = interval, gap_start_ = last_;
+    }
+    last_ = stamp;
+    return true;
+  }
+  bool reject(const std::string& fault) {
+    if (report_.unusable++ == 0) report_.first_fault = fault;
+    return false;
+  }
+  TopicReport report(const ros::Time& begin) {
+    const double interval = quantile(intervals_, 0.5);
+    if (interval > 0.0) report_.rate = 1.0 / interval;
+    if (report_.longest_gap > 0.0) report_.gap_start = (gap_start_ - begin).toSec();
+    return report_;
+  }
+
+ private:
+  TopicReport report_;
+  ros::Time last_, gap_start_;
+  std::vector<double> intervals_;
+};
+
+class Replay {
+ public:
+  Replay(const std::string& out, const Scene& scene, const ModelOptions& model, const ReplayOptions& options)
+      : options_(options),
+        estimator_(scene, model, options.estimator),
+        pressures_(options.pressure_topic),
+        poses_(options.pose_topic),
+        wrenches_(options.wrench_topic) {
+    const std::vector<int>& channels = options.channel_of_chamber;
+    if (!channels.empty() && channels.size() != static_cast<size_t>(scene.chamberCount()))
+      throw ConfigurationError("channel_of_chamber",
+                               {std::to_string(channels.size()) + " entries: must be one for each of the scene's " +
+                                std::to_string(scene.chamberCount()) + " chambers"});
+    if (!channels.empty()) channel_map_ = ChannelMap(channels);
+    bag_.open(out, rosbag::bagmode::Write);
+  }
+
+  void take(const rosbag::MessageInstance& message) {
+    recorded_ = message.getTime();
+    const std::string topic = withoutSlash(message.getTopic());
+    if (topic == withoutSlash(options_.wrench_topic)) {
+      if (const auto wrench = message.instantiate<geometry_msgs::WrenchStamped>()) onWrench(*wrench);
+      else wrenches_.reject("is no geometry_msgs/WrenchStamped");
+      return;
+    }
+    const bool is_pressure = topic == withoutSlash(options_.pressure_topic);
+    if (!is_pressure && topic != withoutSlash(options_.pose_topic)) return;
+    const auto any = message.instantiate<topic_tools::ShapeShifter>();
+    if (is_pressure) onPressures(readPressures(*any, options_.pressure_format));
+    else onPose(readPose(*any, options_.position_unit));
+  }
+
+  ReplayReport report(const ros::Time& begin) {
+    ReplayReport report;
+    report.pressures = pressures_.report(begin);
+    report.poses = poses_.report(begin);
+    report.wrenches = wrenches_.report(begin);
+    report.updates = static_cast<long>(times_.size());
+    report.failures = failures_;
+    report.first_failure = first_failure_;
+    report.update_median = quantile(times_, 0.5);
+    report.update_p99 = quantile(times_, 0.99);
+    report.numerical_error_median = quantile(numerical_errors_, 0.5);
+    report.numerical_error_max = quantile(numerical_errors_, 1.0);
+    report.tracking_error = summarizeErrors(tracking_errors_);
+    return report;
+  }
+
+ private:
+  // The map of a message of `channels` channels; nullptr when they cannot feed the scene's chambers.
+  const ChannelMap* channelMap(int channels) {
+    const int chambers = estimator_.model().scene().chamberCount();
+    if (!channel_map_ && channels > 0 && chambers % channels == 0) channel_map_ = ChannelMap::even(channels, chambers);
+    return channel_map_ && channel_map_->channelCount() == channels ? &*channel_map_ : nullptr;
+  }
+  std::string channelFault(int channels) const {
+    const int chambers = estimator_.model().scene().chamberCount();
+    return std::to_string(channels) + " channels: must be " +
+           (channel_map_ ? std::to_string(channel_map_->channelCount())
+                         : "a divisor of the scene's " + std::to_string(chambers) + " chambers") +
+           "; see --scene and --channel-of-chamber";
+  }
+  ros::Time stampOf(const ros::Time& stamp) const { return stamp.isZero() ? recorded_ : stamp; }
+
+  void onPressures(const Reading<Pressures>& reading) {
+    is_stale_ = true;
+    const int channels = static_cast<int>(reading.value.size());
+    const ChannelMap* map = reading.ok() ? channelMap(channels) : nullptr;
+    if (reading.ok() && map == nullptr) {
+      pressures_.reject(channelFault(channels));
+      return;
+    }
+    const ros::Time stamp = stampOf(reading.stamp);
+    if (!pressures_.take(reading, stamp)) return;
+    is_stale_ = false;
+    pressure_stamp_ = stamp;
+    StiffnessEstimator::Outcome outcome = estimator_.setPressures(map->expand(reading.value));
+    const bool is_due = (stamp - estimate_stamp_).toSec() >= 1.0 / options_.heartbeat || stamp < estimate_stamp_;
+    if (outcome == StiffnessEstimator::Outcome::kUnchanged && is_due) outcome = estimator_.solve();
+    react(outcome);
+  }
+
+  void onWrench(const geometry_msgs::WrenchStamped& message) {
+    const Pose* X_BT = estimator_.estimate() ? &estimator_.estimate()->solution.X_BT : nullptr;
+    const Reading<Wrench> reading = readWrench(message, options_.frames, X_BT);
+    if (!wrenches_.take(reading, stampOf(reading.stamp))) return;
+    if (!is_stale_) react(estimator_.setTipWrench(reading.value));
+  }
+
+  void onPose(const Reading<TrackedPose>& reading) {
+    const ros::Time stamp = stampOf(reading.stamp);
+    if (!poses_.take(reading, stamp) || is_stale_ || estimator_.estimate() == nullptr) return;
+    const Pose measured = options_.registration.tipPose(reading.value.pose);
+    const Pose& predicted = estimator_.estimate()->solution.X_BT;
+    const Twist residual = residualTwist(measured, predicted);
+    tracking_errors_.push_back(linear(residual).norm());
+    bag_.write("/stiffness_node/tracking_error", recorded_,
+               toTrackingError(measured, predicted, residual, stamp, options_.frames.base));
+  }
+
+  void react(StiffnessEstimator::Outcome outcome) {
+    if (outcome == StiffnessEstimator::Outcome::kUnchanged) return;
+    if (outcome == StiffnessEstimator::Outcome::kFailed) {
+      is_stale_ = true;
+      if (failures_++ == 0) first_failure_ = estimator_.statusText();
+    } else {
+      estimate_stamp_ = pressure_stamp_;
+      times_.push_back(estimator_.estimate()->solve_time);
+      numerical_errors_.push_back(estimator_.estimate()->solution.numerical_error);
+    }
+    if (estimator_.estimate() == nullptr) return;
+    StiffnessEstimate message = toEstimate(*estimator_.estimate(), estimate_stamp_, options_.frames.base);
+    setStanding(estimator_.status().code, estimator_.statusText(), false, 0.0, "pressures", message);
+    bag_.write("/stiffness_node/estimate", recorded_, message);
+    if (!message.stale)
+      bag_.write("/stiffness_node/tip_pose", recorded_,
+                 toPoseStamped(estimator_.estimate()->solution.X_BT, estimate_stamp_, options_.frames.base));
+  }
+
+  const ReplayOptions& options_;
+  std::optional<ChannelMap> channel_map_;
+  StiffnessEstimator estimator_;
+  rosbag::Bag bag_;
+  TopicWatch pressures_, poses_, wrenches_;
+  ros::Time recorded_, pressure_stamp_, estimate_stamp_;
+  bool is_stale_ = true;  // the estimate is not that of the newest pressures
+  long failures_ = 0;
+  std::string first_failure_;
+  std::vector<double> times_, numerical_errors_, tracking_errors_;
+};
+
+void addRow(const TopicReport& topic, std::ostream& out) {
+  out << "| " << topic.name << " | " << topic.usable << " | " << topic.unusable << " | " << numberText(topic.rate)
+      << " | " << numberText(topic.longest_gap) << " at " << numberText(topic.gap_start) << " | " << topic.backward
+      << " |\n";
+}
+
+}  // namespace
+
+std::string ReplayReport::text(const std::string& bag, double accuracy) const {
+  std::ostringstream out;
+  out.precision(3);
+  out << "# " << bag << "\n\n"
+      << duration << " s of bag in " << wall_time << " s, " << duration / wall_time << " times real time.\n\n"
+      << "| topic | usable | unusable | rate, Hz | longest gap, s, at s | stamps going back |\n|---|---|---|---|---|---|\n";
+  for (const TopicReport* topic : {&pressures, &poses, &wrenches}) addRow(*topic, out);
+  for (const TopicReport* topic : {&pressures, &poses, &wrenches})
+    if (topic->unusable > 0) out << "\nFirst unusable on " << topic->name << ": " << topic->first_fault << "\n";
+  out << "\nUpdates: " << updates << ", failed: " << failures << (failures > 0 ? " (" + first_failure + ")" : "")
+      << "\n\nSpeed against error: median " << 1e6 * update_median << " us, p99 " << 1e6 * update_p99
+      << " us an update, at an estimated relative error of " << numerical_error_median << " in the median and "
+      << numerical_error_max << " at most (accuracy asked for: " << accuracy << ").\n\nTracking error: "
+      << (tracking_error.count > 0 ? millimetreText(tracking_error) : "no poses to compare with") << "\n";
+  return out.str();
+}
+
+ReplayReport replayBag(const std::string& bag, const std::string& out, const Scene& scene, const ModelOptions& model,
+                       const ReplayOptions& options, const std::function<void(long, long)>& progress) {
+  const auto start = std::chrono::steady_clock::now();
+  std::error_code ignored;
+  if (bag == out || std::filesystem::equivalent(bag, out, ignored))
+    throw ConfigurationError("bag " + out, {"is the one to be read: give another to be written"});
+  ReplayReport report;
+  try {
+    rosbag::Bag in(bag, rosbag::bagmode::Read);
+    const std::string names[] = {withoutSlash(options.pressure_topic), withoutSlash(options.pose_topic),
+                                 withoutSlash(options.wrench_topic)};
+    rosbag::View view(in, [&](const rosbag::ConnectionInfo* connection) {
+      return std::count(std::begin(names), std::end(names), withoutSlash(connection->topic)) > 0;
+    });
+    Replay replay(out, scene, model, options);
+    const long total = view.size();
+    long done = 0;
+    for (const rosbag::MessageInstance& message : view) {
+      replay.take(message);
+      if (progress) progress(++done, total);
+    }
+    const ros::Time begin = total > 0 ? view.getBeginTime() : ros::Time();
+    report = replay.report(begin);
+    if (total > 0) report.duration = (view.getEndTime() - begin).toSec();
+  } catch (const rosbag::BagException& error) {
+    throw ConfigurationError("bag " + bag + " to " + out, {error.what()});
+  }
+  if (report.pressures.usable == 0)
+    throw ConfigurationError("bag " + bag, {"no usable pressures on " + options.pressure_topic +
+                                            (report.pressures.unusable > 0 ? ": " + report.pressures.first_fault
+                                                                           : "; see rosbag info, and --pressures")});
+  report.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return report;
+}
+
+}  // namespace live_stiffness

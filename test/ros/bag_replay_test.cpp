@@ -1,0 +1,179 @@
+#include "live_stiffness/ros/bag_replay.h"
+
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <std_msgs/Float64MultiArray.h>
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+
+#include "live_stiffness/checks.h"
+#include "support/matrix_near.h"
+#include "support/scenes.h"
+
+namespace live_stiffness {
+namespace {
+
+constexpr double kRate = 40.0;  // Hz
+
+// A bag of a robot that follows the model, seen by a tracker that stands elsewhere.
+class BagReplay : public ::testing::Test {
+ protected:
+  BagReplay() : model_(paperScene(1), ModelOptions()), in_(path("in")), out_(path("out")) {
+    options_.registration.X_AB = {expSo3(Vector3(0.1, -0.4, 2.0)), Vector3(0.2, -0.1, 0.3)};
+    options_.registration.X_TS.p = Vector3(0.01, 0.0, 0.02);
+    bag_.open(in_, rosbag::bagmode::Write);
+  }
+  ~BagReplay() override {
+    std::remove(in_.c_str());
+    std::remove(out_.c_str());
+  }
+  static std::string path(const std::string& name) {
+    return std::string(::testing::TempDir()) + "bag_replay_" +
+           ::testing::UnitTest::GetInstance()->current_test_info()->name() + "_" + name + ".bag";
+  }
+  static ros::Time stamp(double time) { return ros::Time(100.0 + time); }
+  Pressures at(double time) const {
+    Pressures pressures = Pressures::Zero(model_.scene().chamberCount());
+    pressures[0] = pressures[1] = 4e4 * (1.0 - std::cos(time));
+    return pressures;
+  }
+  void record(double time, double tip_error = 0.0) {
+    StiffnessWorkspace workspace = model_.makeWorkspace();
+    bag_.write("/chamber_pressures", stamp(time), toPressures(at(time), stamp(time)));
+    Pose X_BT = model_.solve(at(time), Wrench::Zero(), workspace).X_BT;
+    X_BT.p.x() += tip_error;
+    const ros::Time seen = stamp(time + 1e-3);  // messages of one time come in no certain order
+    bag_.write("aurora_pose", seen, toPoseStamped(options_.registration.sensorPose(X_BT), seen, "aurora"));
+  }
+  ReplayReport replay() {
+    bag_.close();
+    return replayBag(in_, out_, model_.scene(), ModelOptions(), options_);
+  }
+
+  StiffnessModel model_;
+  ReplayOptions options_;
+  std::string in_, out_;
+  rosbag::Bag bag_;
+};
+
+TEST_F(BagReplay, WritesTheEstimatesOfTheModelWithTheStampsOfTheirPressures) {
+  options_.estimator.update_threshold = 0.0;
+  for (int i = 0; i < 80; ++i) record(i / kRate);
+  const ReplayReport report = replay();
+  EXPECT_EQ(report.updates, 80);
+  rosbag::Bag out(out_, rosbag::bagmode::Read);
+  StiffnessWorkspace workspace = model_.makeWorkspace();
+  int count = 0;
+  for (const rosbag::MessageInstance& message : rosbag::View(out, rosbag::TopicQuery("/stiffness_node/estimate"))) {
+    const auto estimate = message.instantiate<StiffnessEstimate>();
+    ASSERT_TRUE(estimate);
+    EXPECT_FALSE(estimate->stale);
+    const double time = count++ / kRate;
+    EXPECT_NEAR((estimate->header.stamp - stamp(time)).toSec(), 0.0, 1e-6);
+    workspace.reset();
+    const StiffnessSolution exact = model_.solve(at(time), Wrench::Zero(), workspace);
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < 6; ++j)  // two solves, each accurate to 1e-9
+        EXPECT_NEAR(estimate->compliance[6 * i + j], exact.compliance(i, j), 1e-8 * exact.compliance.norm());
+  }
+  EXPECT_EQ(count, 80);
+}
+
+TEST_F(BagReplay, ReportsTheTrackingError) {
+  options_.estimator.update_threshold = 0.0;
+  for (int i = 0; i < 40; ++i) record(i / kRate, 2e-3);
+  const ReplayReport report = replay();
+  EXPECT_EQ(report.tracking_error.count, 40);
+  EXPECT_NEAR(report.tracking_error.mean, 2e-3, 1e-9);
+  EXPECT_NEAR(report.tracking_error.max, 2e-3, 1e-9);
+  EXPECT_NE(report.text(in_, 1e-9).find("mean 2.00"), std::string::npos) << report.text(in_, 1e-9);
+}
+
+TEST_F(BagReplay, ReportsRatesAndTheLongestGap) {
+  for (int i = 0; i < 40; ++i) record(i / kRate);
+  for (int i = 60; i < 80; ++i) record(i / kRate);
+  const ReplayReport report = replay();
+  for (const TopicReport* topic : {&report.pressures, &report.poses}) {
+    EXPECT_EQ(topic->usable, 60);
+    EXPECT_NEAR(topic->rate, kRate, 1e-3);
+    EXPECT_NEAR(topic->longest_gap, 21.0 / kRate, 1e-6);
+    EXPECT_NEAR(topic->gap_start, 39.0 / kRate, 1.1e-3);  // poses come a millisecond later
+    EXPECT_EQ(topic->backward, 0);
+  }
+  EXPECT_NEAR(report.duration, 79.0 / kRate + 1e-3, 1e-6);
+}
+
+TEST_F(BagReplay, CountsWhatItCannotUseAndGoesOn) {
+  record(0.0);
+  Pressures bad = at(0.1);
+  bad[2] = std::nan("");
+  bag_.write("/chamber_pressures", stamp(0.1), toPressures(bad, stamp(0.1)));
+  bag_.write("/chamber_pressures", stamp(0.2), toPressures(Pressures::Zero(5), stamp(0.2)));
+  bag_.write("/chamber_pressures", stamp(0.3), toPoseStamped(Pose(), stamp(0.3), ""));
+  bag_.write("/aurora_pose", stamp(0.3), geometry_msgs::PoseStamped());  // a zero quaternion
+  bag_.write("/tip_wrench", stamp(0.3), toWrenchStamped(Wrench::Zero(), stamp(0.3), "elsewhere"));
+  Pressures far = Pressures::Constant(model_.scene().chamberCount(), 1e9);
+  bag_.write("/chamber_pressures", stamp(0.4), toPressures(far, stamp(0.4)));
+  record(0.5);
+  const ReplayReport report = replay();
+  EXPECT_EQ(report.pressures.usable, 3);
+  EXPECT_EQ(report.pressures.unusable, 3);
+  EXPECT_EQ(report.poses.unusable, 1);
+  EXPECT_EQ(report.wrenches.unusable, 1);
+  EXPECT_EQ(report.failures, 1);
+  EXPECT_EQ(report.updates, 2);
+  EXPECT_FALSE(report.first_failure.empty());
+  EXPECT_EQ(report.tracking_error.count, 2);
+  rosbag::Bag out(out_, rosbag::bagmode::Read);
+  for (const rosbag::MessageInstance& message : rosbag::View(out, rosbag::TopicQuery("/stiffness_node/estimate"))) {
+    const auto estimate = message.instantiate<StiffnessEstimate>();
+    for (double c : estimate->compliance) EXPECT_TRUE(std::isfinite(c));
+  }
+}
+
+TEST_F(BagReplay, TakesAKnownTipWrench) {
+  options_.estimator.update_threshold = 0.0;
+  record(0.0);
+  const Wrench wrench = 0.3 * Wrench::Unit(0);
+  bag_.write("/tip_wrench", stamp(0.1), toWrenchStamped(wrench, stamp(0.1), "base"));
+  EXPECT_EQ(replay().updates, 2);
+  rosbag::Bag out(out_, rosbag::bagmode::Read);
+  StiffnessEstimate last;
+  for (const rosbag::MessageInstance& message : rosbag::View(out, rosbag::TopicQuery("/stiffness_node/estimate")))
+    last = *message.instantiate<StiffnessEstimate>();
+  StiffnessWorkspace workspace = model_.makeWorkspace();
+  EXPECT_NEAR(last.tip_pose.position.x, model_.solve(at(0.0), wrench, workspace).X_BT.p.x(), 1e-9);
+}
+
+TEST_F(BagReplay, SharesChambersEvenlyByTheChannelsOfTheFirstMessage) {
+  Pressures three(3);
+  three << 1e4, 3e4, 5e4;
+  bag_.write("/chamber_pressures", stamp(0.0), toPressures(three, stamp(0.0)));
+  EXPECT_EQ(replay().updates, 1);
+  Pressures six(6);
+  six << 1e4, 1e4, 3e4, 3e4, 5e4, 5e4;
+  StiffnessWorkspace workspace = model_.makeWorkspace();
+  const Vector3 exact = model_.solve(six, Wrench::Zero(), workspace).X_BT.p;
+  rosbag::Bag out(out_, rosbag::bagmode::Read);
+  for (const rosbag::MessageInstance& message : rosbag::View(out, rosbag::TopicQuery("/stiffness_node/estimate"))) {
+    const auto estimate = message.instantiate<StiffnessEstimate>();
+    EXPECT_NEAR(estimate->tip_pose.position.x, exact.x(), 1e-9);
+    EXPECT_NEAR(estimate->tip_pose.position.z, exact.z(), 1e-9);
+  }
+}
+
+TEST_F(BagReplay, RefusesBagsThatCannotBe) {
+  bag_.close();
+  EXPECT_THROW(replay(), ConfigurationError);  // no pressures
+  EXPECT_THROW(replayBag(in_, in_, model_.scene(), {}, options_), ConfigurationError);
+  EXPECT_THROW(replayBag("/nowhere.bag", out_, model_.scene(), {}, options_), ConfigurationError);
+  EXPECT_THROW(replayBag(in_, "/nowhere/out.bag", model_.scene(), {}, options_), ConfigurationError);
+  std::ofstream(in_) << "no bag";
+  EXPECT_THROW(replayBag(in_, out_, model_.scene(), {}, options_), ConfigurationError);
+}
+
+}  // namespace
+}  // namespace live_stiffness
