@@ -18,7 +18,17 @@ long g_allocations = 0;
 
 }  // namespace
 
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
+// Sanitizers bring a malloc of their own. gcc names them by macros, clang by features.
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define OTHER_MALLOC 1
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define OTHER_MALLOC 1
+#endif
+
+#if defined(__GLIBC__) && !defined(OTHER_MALLOC)
 #define COUNTS_ALLOCATIONS 1
 extern "C" {
 void* __libc_malloc(size_t size);
@@ -66,7 +76,7 @@ class NoAllocation : public ::testing::Test {
  protected:
   void SetUp() override {
 #ifndef COUNTS_ALLOCATIONS
-    GTEST_SKIP() << "malloc can be replaced with glibc and without address sanitizer only";
+    GTEST_SKIP() << "malloc can be replaced with glibc and without address or thread sanitizer only";
 #endif
   }
 };

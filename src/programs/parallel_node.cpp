@@ -1,4 +1,4 @@
-// parallel_node: see config/parallel_node.yaml for its parameters.
+// parallel_node: the node that watches a parallel continuum robot; config/parallel_node.yaml has its parameters.
 
 #include <ros/ros.h>
 

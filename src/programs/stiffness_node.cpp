@@ -1,4 +1,4 @@
-// stiffness_node: see config/stiffness_node.yaml for its parameters.
+// stiffness_node: the node that watches a fluidic soft robot; config/stiffness_node.yaml has its parameters.
 
 #include <ros/ros.h>
 

@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+#include "live_stiffness/ros/short_allocator.h"
+
 namespace live_stiffness {
 namespace {
 
@@ -26,6 +28,20 @@ Reading<Value> faulty(const std::string& fault) {
   return reading;
 }
 
+using Short = ShortAllocator<void>;  // of messages with arrays
+
+// The message; nullptr, and a fault, if its bytes are cut short, claim more numbers than any robot has, or belong to
+// another version of the type.
+template <class Message, class Value>
+boost::shared_ptr<Message> decode(const topic_tools::ShapeShifter& message, Reading<Value>& reading) {
+  try {
+    return message.instantiate<Message>();
+  } catch (const std::exception&) {
+    reading.fault = "message is damaged, or of another version of " + message.getDataType();
+    return nullptr;
+  }
+}
+
 std::string pressureFault(double value, const PressureFormat& format) {
   if (!std::isfinite(value)) return "is " + numberText(value) + ": must be finite";
   if (format.absolute && value < 0.0)
@@ -40,13 +56,16 @@ Reading<Eigen::VectorXd> readArray(const topic_tools::ShapeShifter& message, Arr
   Reading<Eigen::VectorXd> reading;
   const std::string type = message.getDataType(), own_type = ros::message_traits::DataType<Stamped>::value();
   if (type == own_type) {
-    const auto typed = message.instantiate<Stamped>();
-    reading.stamp = typed->header.stamp;
-    reading.value = toVectorXd((*typed).*field);
+    if (const auto typed = decode<Stamped>(message, reading)) {
+      reading.stamp = typed->header.stamp;
+      reading.value = toVectorXd((*typed).*field);
+    }
   } else if (type == "std_msgs/Float64MultiArray") {
-    reading.value = toVectorXd(message.instantiate<std_msgs::Float64MultiArray>()->data);
+    if (const auto typed = decode<std_msgs::Float64MultiArray_<Short>>(message, reading))
+      reading.value = toVectorXd(typed->data);
   } else if (type == "std_msgs/Float32MultiArray") {
-    reading.value = toVectorXd(message.instantiate<std_msgs::Float32MultiArray>()->data);
+    if (const auto typed = decode<std_msgs::Float32MultiArray_<Short>>(message, reading))
+      reading.value = toVectorXd(typed->data);
   } else {
     reading.fault = "message type " + type + ": must be " + own_type +
                     ", std_msgs/Float64MultiArray or std_msgs/Float32MultiArray";
@@ -116,7 +135,7 @@ double pascalsPerUnit(const std::string& unit) {
 }
 
 Reading<Pressures> readPressures(const topic_tools::ShapeShifter& message, const PressureFormat& format) {
-  Reading<Pressures> reading = readArray(message, &ChamberPressures::pressure);
+  Reading<Pressures> reading = readArray(message, &ChamberPressures_<Short>::pressure);
   for (int k = 0; k < reading.value.size() && reading.ok(); ++k) {
     const std::string fault = pressureFault(reading.value[k], format);
     if (!fault.empty()) reading.fault = "pressure of channel " + std::to_string(k + 1) + " " + fault;
@@ -126,7 +145,7 @@ Reading<Pressures> readPressures(const topic_tools::ShapeShifter& message, const
 }
 
 Reading<Eigen::VectorXd> readRodLengths(const topic_tools::ShapeShifter& message, double unit) {
-  Reading<Eigen::VectorXd> reading = readArray(message, &RodLengths::length);
+  Reading<Eigen::VectorXd> reading = readArray(message, &RodLengths_<Short>::length);
   for (int i = 0; i < reading.value.size() && reading.ok(); ++i)
     if (!std::isfinite(reading.value[i]))
       reading.fault =
@@ -145,21 +164,24 @@ Reading<double> readPressure(const sensor_msgs::FluidPressure& message, const Pr
 }
 
 Reading<TrackedPose> readPose(const topic_tools::ShapeShifter& message, double position_unit) {
+  Reading<TrackedPose> reading;
   const std::string type = message.getDataType();
   if (type == "geometry_msgs/PoseStamped") {
-    const auto typed = message.instantiate<geometry_msgs::PoseStamped>();
-    return checkedPose(typed->header.stamp, typed->header.frame_id, typed->pose.position, typed->pose.orientation,
-                       position_unit);
+    if (const auto typed = decode<geometry_msgs::PoseStamped>(message, reading))
+      return checkedPose(typed->header.stamp, typed->header.frame_id, typed->pose.position, typed->pose.orientation,
+                         position_unit);
+  } else if (type == "geometry_msgs/PoseWithCovarianceStamped") {
+    if (const auto typed = decode<geometry_msgs::PoseWithCovarianceStamped>(message, reading))
+      return checkedPose(typed->header.stamp, typed->header.frame_id, typed->pose.pose.position,
+                         typed->pose.pose.orientation, position_unit);
+  } else if (type == "geometry_msgs/TransformStamped") {
+    if (const auto typed = decode<geometry_msgs::TransformStamped>(message, reading))
+      return readPose(*typed, position_unit);
+  } else {
+    reading.fault = "message type " + type + ": must be geometry_msgs/PoseStamped, "
+                    "geometry_msgs/PoseWithCovarianceStamped or geometry_msgs/TransformStamped";
   }
-  if (type == "geometry_msgs/PoseWithCovarianceStamped") {
-    const auto typed = message.instantiate<geometry_msgs::PoseWithCovarianceStamped>();
-    return checkedPose(typed->header.stamp, typed->header.frame_id, typed->pose.pose.position,
-                       typed->pose.pose.orientation, position_unit);
-  }
-  if (type == "geometry_msgs/TransformStamped")
-    return readPose(*message.instantiate<geometry_msgs::TransformStamped>(), position_unit);
-  return faulty<TrackedPose>("message type " + type + ": must be geometry_msgs/PoseStamped, "
-                             "geometry_msgs/PoseWithCovarianceStamped or geometry_msgs/TransformStamped");
+  return reading;
 }
 
 Reading<TrackedPose> readPose(const geometry_msgs::TransformStamped& message, double position_unit) {

@@ -84,6 +84,42 @@ TEST(Conversions, BadPressuresAreFaultsThatNameTheChannel) {
             std::string::npos);
 }
 
+// A message of the type that says it is, with these bytes.
+template <class Message>
+topic_tools::ShapeShifter withBytes(std::vector<uint8_t> bytes, const std::string& md5 = "") {
+  topic_tools::ShapeShifter shape;
+  shape.morph(md5.empty() ? ros::message_traits::MD5Sum<Message>::value() : md5,
+              ros::message_traits::DataType<Message>::value(), ros::message_traits::Definition<Message>::value(), "");
+  ros::serialization::IStream in(bytes.data(), bytes.size());
+  shape.read(in);
+  return shape;
+}
+
+TEST(Conversions, MessagesCutShortAreFaults) {
+  EXPECT_NE(readPressures(withBytes<ChamberPressures>({1, 2, 3}), PressureFormat()).fault.find("damaged"),
+            std::string::npos);
+  EXPECT_FALSE(readRodLengths(withBytes<RodLengths>({}), 1.0).ok());
+  EXPECT_FALSE(readPose(withBytes<geometry_msgs::PoseStamped>({1, 2, 3}), 1.0).ok());
+  EXPECT_FALSE(readPose(withBytes<geometry_msgs::PoseWithCovarianceStamped>({}), 1.0).ok());
+  EXPECT_FALSE(readPose(withBytes<geometry_msgs::TransformStamped>({}), 1.0).ok());
+}
+
+TEST(Conversions, MessagesThatClaimFourThousandMillionNumbersAreFaults) {
+  // Sequence, stamp, empty frame, then the length of the array; the dimensions of a MultiArray come first.
+  std::vector<uint8_t> stamped(16, 0), dimensions;
+  for (auto* bytes : {&stamped, &dimensions}) bytes->insert(bytes->end(), 4, 0xff);
+  EXPECT_FALSE(readPressures(withBytes<ChamberPressures>(stamped), PressureFormat()).ok());
+  EXPECT_FALSE(readRodLengths(withBytes<RodLengths>(stamped), 1.0).ok());
+  EXPECT_FALSE(readPressures(withBytes<std_msgs::Float64MultiArray>(dimensions), PressureFormat()).ok());
+  EXPECT_FALSE(readPressures(withBytes<std_msgs::Float32MultiArray>(dimensions), PressureFormat()).ok());
+}
+
+TEST(Conversions, AnotherVersionOfTheTypeIsAFault) {
+  const auto message = withBytes<ChamberPressures>({}, "0123456789abcdef0123456789abcdef");
+  EXPECT_NE(readPressures(message, PressureFormat()).fault.find("version of live_stiffness/ChamberPressures"),
+            std::string::npos);
+}
+
 TEST(Conversions, PoseGoesThereAndBackThroughAllThreeTypes) {
   const Pose X = somePose();
   const auto stamped = toPoseStamped(X, ros::Time(3.0), "/aurora");
