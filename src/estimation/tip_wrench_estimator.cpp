@@ -265,18 +265,14 @@ bool TipWrenchEstimator::step(PressuresRef pressures, const Pose* measured, doub
   const bool contact = contact_.inContact();
   Prediction prior = predictState(elapsed, pressure_change, contact);
   Correction correction;
-  bool outlier = false, corrected = false;
+  bool outlier = false;
   if (measured != nullptr) {
-    corrected = correct(*measured, prior, !contact, correction);
+    bool corrected = correct(*measured, prior, !contact, correction);
     if (!contact && (!corrected || correction.innovation > options_.robust_from)) {
       // More than a free robot would do: as if contact had begun.
       Prediction touched = predictState(elapsed, pressure_change, true);
-      if (correct(*measured, touched, false, correction)) {
-        prior = touched;
-        corrected = true;
-      } else {
-        corrected = false;
-      }
+      corrected = correct(*measured, touched, false, correction);
+      if (corrected) prior = touched;
     }
     outlier = corrected && isOutlier(*measured, correction.innovation);
     if (!corrected) {
