@@ -46,7 +46,7 @@ std::optional<RecordedSample> readSample(const RecordingColumns& columns, const 
   if (!reason.empty()) return std::nullopt;
 
   // Trackers report a tool that they do not see as a zero quaternion; rounding never gets a real one below 0.5.
-  if (!(q.norm() > 0.5)) {
+  if (!(q.norm() > 0.5 && q.norm() < 2.0)) {
     reason = "quaternion of norm " + numberText(q.norm()) + ": must be near 1";
     return std::nullopt;
   }

@@ -10,7 +10,8 @@ namespace live_stiffness {
 namespace {
 
 Pose readPose(YamlMap& document, const std::string& key, FaultList& faults) {
-  constexpr double kSmallestNorm = 1e-3;  // below, the direction of a rounded quaternion means nothing
+  // Below, the direction of a rounded quaternion means nothing; above, squares may overflow.
+  const Range norm{1e-3, 1e3};
   Pose X;
   const YAML::Node node = document.child(key);
   if (!node.IsDefined()) {
@@ -23,8 +24,8 @@ Pose readPose(YamlMap& document, const std::string& key, FaultList& faults) {
   if (wxyz.size() == 4) {
     const Eigen::Quaterniond q(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
     if (q.coeffs().allFinite()) {  // otherwise the fault is there already
-      if (q.norm() >= kSmallestNorm) X.R = q.normalized().toRotationMatrix();
-      else map.fault("quaternion_wxyz", "norm is " + numberText(q.norm()) + ": must be at least 0.001, should be 1");
+      if (norm.contains(q.norm())) X.R = q.normalized().toRotationMatrix();
+      else map.fault("quaternion_wxyz", "norm is " + numberText(q.norm()) + ": must be 0.001 to 1000, should be 1");
     }
   }
   map.finish();
@@ -43,16 +44,11 @@ void writePose(std::ostream& text, const std::string& key, const Pose& X) {
 Registration parseRegistration(const std::string& yaml, const std::string& name) {
   FaultList faults("registration " + name);
   Registration registration;
-  try {
-    const YAML::Node document = YAML::Load(yaml);
-    YamlMap map(document, "", faults);
+  readDocument(yaml, faults, [&](YamlMap& map) {
     registration.X_AB = readPose(map, "base_in_tracker", faults);
     registration.X_TS = readPose(map, "sensor_on_tip", faults);
     map.finish();
-  } catch (const YAML::Exception& error) {
-    const std::string line = error.mark.is_null() ? "" : " (line " + std::to_string(error.mark.line + 1) + ")";
-    faults.add("not YAML: " + error.msg + line);
-  }
+  });
   faults.throwIfAny();
   return registration;
 }

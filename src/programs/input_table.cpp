@@ -82,7 +82,7 @@ bool InputTable::next(InputRow& row) {
   for (size_t i = 0; i < texts.size(); ++i) {
     char* end = nullptr;
     const double value = std::strtod(texts[i].c_str(), &end);
-    if (texts[i].empty() || *end != '\0') {
+    if (texts[i].empty() || end != texts[i].c_str() + texts[i].size()) {  // not *end, which may be a NUL of the file
       row.fault = names_[i] + " = " + (texts[i].empty() ? "(empty)" : texts[i]) + ": must be a number";
       return true;
     }

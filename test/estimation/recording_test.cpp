@@ -78,6 +78,7 @@ TEST(Recording, BadLinesAreSkippedWithTheirNumber) {
   expectSkipped("0.5,100" + kPose, {"line 3", "time 0.5", "line 2"});
   expectSkipped("1,100" + kPose, {"line 3", "time"});
   expectSkipped("2,100,1,2,3,0,0,0,0\n", {"line 3", "quaternion"});
+  expectSkipped("1,100,1,2,3,0,1e200,0,0\n", {"line 3", "quaternion"});
 }
 
 TEST(Recording, BlankLinesAndCarriageReturnsAndByteOrderMarkAreHarmless) {

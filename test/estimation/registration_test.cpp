@@ -81,6 +81,13 @@ TEST(Registration, ZeroQuaternionIsNamed) {
   EXPECT_NE(faults[0].find("base_in_tracker.quaternion_wxyz"), std::string::npos) << faults[0];
 }
 
+// The norm of such a one overflows, and dividing by it would leave the identity without a word.
+TEST(Registration, HugeQuaternionIsRefused) {
+  std::string yaml = kGood;
+  yaml.replace(yaml.find("[1, 0, 0, 0]"), 12, "[0, 1e200, 0, 0]");
+  EXPECT_EQ(faultsOf(yaml).size(), 1u);
+}
+
 TEST(Registration, UnreachableFilesAreRefused) {
   EXPECT_THROW(loadRegistrationFile("/nowhere/registration.yaml"), ConfigurationError);
   EXPECT_THROW(saveRegistrationFile("/nowhere/registration.yaml", {}), ConfigurationError);

@@ -19,7 +19,7 @@ struct Registration {
 // Registration files (YAML):
 //   base_in_tracker: {position_m: [x, y, z], quaternion_wxyz: [w, x, y, z]}    # X_AB
 //   sensor_on_tip: {position_m: [x, y, z], quaternion_wxyz: [w, x, y, z]}      # X_TS
-// All keys are required; quaternions are normalised, and must not be (nearly) zero: norm at least 1e-3.
+// All keys are required; quaternions are normalised; their norm must be 1e-3 to 1e3.
 // Both throw ConfigurationError with every fault (key, value, legal range, line).
 Registration loadRegistrationFile(const std::string& path);
 Registration parseRegistration(const std::string& yaml, const std::string& name);
