@@ -10,6 +10,7 @@
 
 #include "any_recording.h"
 #include "live_stiffness/calibration/calibration.h"
+#include "live_stiffness/estimation/contact_score.h"
 #include "live_stiffness/estimation/tip_wrench_estimator.h"
 #include "live_stiffness/rod/scene_file.h"
 
@@ -21,8 +22,8 @@ namespace {
 const char* const kHelp =
     "estimate_wrench SCENE.yaml RECORDING.csv|.bag --registration FILE [--output OUT.csv] ...\n\n"
     "Writes, per sample: estimated wrench at the tip point T in base axes, its standard deviation, contact, innovation,\n"
-    "stiffness scale, and the recorded force (base axes, acting on the robot) if there is one. Cost of an update on\n"
-    "standard error.\n\n";
+    "stiffness scale, and the recorded force (base axes, acting on the robot) if there is one. How well the estimate\n"
+    "follows that, and the cost of an update, on standard error.\n\n";
 
 void writeHeader(std::ostream& out) {
   out << "time_s";
@@ -70,6 +71,7 @@ void run(const std::string& scene_path, const std::string& recording_path, const
   out.precision(6);
   writeHeader(out);
   std::vector<double> microseconds;
+  std::vector<ContactSample> scored;
   for (size_t i = 0; i < recording.samples.size(); ++i) {
     const RecordedSample& sample = recording.samples[i];
     const Pose X_BT = registration.tipPose(sample.tipPose());
@@ -80,7 +82,13 @@ void run(const std::string& scene_path, const std::string& recording_path, const
     std::optional<Wrench> measured;
     if (sample.tip_wrench) measured = mount.atTip(*sample.tip_wrench, X_BT.R);
     writeRow(out, sample.time, estimator, measured);
+    const TipWrenchEstimate* estimate = estimator.estimate();
+    if (!measured || estimate == nullptr) continue;
+    const Matrix3 C = estimate->solution.compliance.topLeftCorner<3, 3>();
+    scored.push_back({sample.time, linear(*measured), linear(estimate->wrench), 0.5 * (C + C.transpose()),
+                      estimate->contact});
   }
+  if (!scored.empty()) std::cerr << contactScore(scored).text() << "\n";
   std::sort(microseconds.begin(), microseconds.end());
   const auto at = [&](double share) { return microseconds[static_cast<size_t>(share * (microseconds.size() - 1))]; };
   std::cerr << "one update: median " << numberText(at(0.5)) << " us, 99 % below " << numberText(at(0.99)) << " us, slowest "

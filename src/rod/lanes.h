@@ -27,12 +27,13 @@ LIVE_STIFFNESS_INLINE double sum(Lanes x) {
   return result;
 }
 
-#if LIVE_STIFFNESS_LANES == 4
-#define LIVE_STIFFNESS_PICK(a, b, i, j, k, l) __builtin_shuffle(a, b, LanesMask{i, j, k, l})
+// The lanes of a and b, counted through, that are named. gcc 9, which Noetic has, and clang share no such builtin.
+#if defined(__clang__)
+#define LIVE_STIFFNESS_PICK(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
 #else
-#define LIVE_STIFFNESS_PICK(a, b, i, j) __builtin_shuffle(a, b, LanesMask{i, j})
-#endif
 typedef long long LanesMask __attribute__((vector_size(8 * LIVE_STIFFNESS_LANES)));
+#define LIVE_STIFFNESS_PICK(a, b, ...) __builtin_shuffle(a, b, LanesMask{__VA_ARGS__})
+#endif
 
 // Sums over the lanes of each row, and rows to one array a lane (out[lane][0...] = rows[...][lane]), a square at a
 // time.

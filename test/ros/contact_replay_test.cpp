@@ -9,8 +9,9 @@
 #include <map>
 
 #include "live_stiffness/estimation/error_summary.h"
+#include "live_stiffness/estimation/contact_score.h"
 #include "live_stiffness/ros/conversions.h"
-#include "support/contact_score.h"
+#include "support/contact_message.h"
 #include "support/driven_node.h"
 
 namespace live_stiffness {
@@ -65,11 +66,8 @@ TEST(ContactReplay, ForceAndTipAreThoseMeasured) {
   ASSERT_GT(samples.size(), 0.8 * poses.size());
   const ContactScore score = contactScore(samples);
   const ErrorSummary free = summarizeErrors(free_errors), corrected = summarizeErrors(corrected_errors);
-  std::printf("%d pushes: RMS %.3f N (%.3f N along the two compliant axes) over %d samples, largest %.2f N (measured %.2f N), "
-              "seen %.0f %%, longest false %.2f s\n"
-              "tip, model alone, unloaded: %s\ntip, corrected: %s\n",
-              score.pushes, score.rms, score.rms_compliant, score.during, score.largest_estimate, score.largest_truth,
-              100.0 * score.seen, score.longest_false, millimetreText(free).c_str(), millimetreText(corrected).c_str());
+  std::printf("%s\ntip, model alone, unloaded: %s\ntip, corrected: %s\n", score.text().c_str(),
+              millimetreText(free).c_str(), millimetreText(corrected).c_str());
   EXPECT_GE(score.pushes, 4);
   // Along the stiff axis, nearly the tip's own, a push moves the tip by less than the model errs: that component is not
   // observable by the tracker, and the estimate's covariance says so. The target holds for the other two.
@@ -78,7 +76,7 @@ TEST(ContactReplay, ForceAndTipAreThoseMeasured) {
   EXPECT_LT(score.longest_false, 1.0);
   // Motion included, and without creep, which the node does not model; at rest it is a third of this.
   EXPECT_LT(free.mean, 4e-3);
-  EXPECT_LT(corrected.mean, 1e-3);
+  EXPECT_LT(corrected.mean, 1e-3);  // half of the 2 mm that a sample may be off its own prediction
 }
 
 }  // namespace

@@ -6,8 +6,9 @@
 
 #include <map>
 
+#include "live_stiffness/estimation/contact_score.h"
 #include "live_stiffness/ros/conversions.h"
-#include "support/contact_score.h"
+#include "support/contact_message.h"
 #include "support/ros_wait.h"
 
 namespace live_stiffness {
@@ -77,14 +78,12 @@ TEST(Contact, ForceOfTwoPushesIsEstimatedAndReportedDuringThemAlone) {
   }
   ASSERT_GT(samples.size(), 400u);
   const ContactScore score = contactScore(samples);
-  std::printf("%d pushes: RMS %.3f N over %d samples, largest %.2f N (true %.2f N), seen %.0f %%, longest false %.2f s\n",
-              score.pushes, score.rms, score.during, score.largest_estimate, score.largest_truth, 100.0 * score.seen,
-              score.longest_false);
+  std::printf("%s\n", score.text().c_str());
   EXPECT_EQ(score.pushes, 2);
   // Over the compliance of some 0.02 m/N: creep and regulator error, 5 % of 60 kPa and 1 kPa, move the tip by about 1 mm,
   // 0.05 N; and in the first 0.2 s of a push, before it is known for one, the estimate trails.
   EXPECT_LT(score.rms, 0.1);
-  EXPECT_NEAR(score.largest_estimate, score.largest_truth, 0.15);
+  EXPECT_NEAR(score.peak, score.peak_truth, 0.15);
   EXPECT_GT(score.seen, 0.98);
   EXPECT_LT(score.longest_false, 1.0);
   EXPECT_TRUE(drawn && drawn_without) << "the arrow must come with contact and go";

@@ -13,8 +13,8 @@ struct TipWrenchOptions {
   int components = 3;  // 3: a pure force at T; 6: force and moment
 
   // White, per sample, of the tracker and of what the model does not follow from one sample to the next: a silicone arm
-  // in motion is some millimetres from its model, and its tip turns about its own axis in ways that none describes (10
-  // deg and more on recordings), so that by default rotation hardly counts. With 6 components it must: lower it.
+  // in motion is some millimetres from its model, and its tip turns about its own axis in ways that none describes (5
+  // to 13 deg on recordings), so that by default rotation hardly counts. With 6 components it must: lower it.
   TrackerNoise tracker{2e-3, 0.5};  // position 1e-6 to 0.1 m, rotation 1e-5 to 1 rad
 
   // The wrench, a Gauss-Markov process. Without contact it is small and soon forgotten, so that what lasts counts as

@@ -1,0 +1,41 @@
+#pragma once
+// How well an estimated tip force follows the one that a sensor measured, and when contact was reported.
+
+#include <string>
+#include <vector>
+
+#include "live_stiffness/conventions.h"
+
+namespace live_stiffness {
+
+struct ContactSample {
+  double time = 0.0;                                            // s
+  Vector3 truth = Vector3::Zero(), estimate = Vector3::Zero();  // on the robot, base axes, N
+  Matrix3 compliance = Matrix3::Identity();  // translational block at the tip, symmetric, base axes, m/N
+  bool contact = false;                      // reported
+};
+
+// *Compliant components* are those along the two most compliant principal axes of the tip's translation, the ones that the
+// tip's position shows.
+struct ContactScore {
+  static constexpr double kTouch = 0.06;   // N; below nothing touches (noise of the recorded force sensor)
+  static constexpr double kFirm = 0.15;    // N; a push that must be seen
+  static constexpr double kFalse = 0.10;   // N; an estimate that matters
+  static constexpr double kSettle = 1.0;   // s that a push and its end may take to be seen
+
+  int pushes = 0;              // times that the force rose above kTouch after at least kSettle below it
+  int during = 0;              // samples with a true force of at least kTouch; the next eight are over them
+  double rms = 0.0, rms_truth = 0.0;                      // error of the force, and the force itself, N
+  double rms_compliant = 0.0, rms_compliant_truth = 0.0;  // the same of the compliant components, N
+  double peak = 0.0, peak_truth = 0.0;                      // largest force, estimated while in contact and true, N
+  double peak_compliant = 0.0, peak_compliant_truth = 0.0;  // the same of the compliant components, N
+  double seen = 0.0;           // share of samples with contact, of those that have been pushed by kFirm for kSettle
+  double longest_false = 0.0;  // longest contact with an estimate above kFalse, nothing having touched for kSettle, s
+
+  std::string text() const;  // one line for people
+};
+
+// samples: in order of time. All zero for none.
+ContactScore contactScore(const std::vector<ContactSample>& samples);
+
+}  // namespace live_stiffness
