@@ -265,7 +265,7 @@ CalibrationProblem::CalibrationProblem(const Scene& scene, const ChannelMap& cha
                                        const std::vector<SceneParameter>& parameters,
                                        const std::vector<CalibrationRecording>& recordings,
                                        const std::vector<ComplianceRow>& rows, const CalibrationOptions& options)
-    : scene_(scene), channels_(channels), parameters_(parameters), rows_(rows), options_(options) {
+    : scene_(scene), parameters_(parameters), rows_(rows), options_(options) {
   for (const CalibrationRecording& data : recordings) {
     evaluators_.push_back(std::make_unique<RecordingEvaluator>(scene, channels, parameters, data, options));
     const long used = std::count(data.used.begin(), data.used.end(), true);

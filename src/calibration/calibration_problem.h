@@ -90,7 +90,6 @@ class CalibrationProblem {
 
  private:
   const Scene& scene_;
-  const ChannelMap& channels_;
   const std::vector<SceneParameter>& parameters_;
   const std::vector<ComplianceRow>& rows_;
   const CalibrationOptions& options_;
