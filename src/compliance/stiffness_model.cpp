@@ -88,7 +88,7 @@ StiffnessSolution StiffnessModel::solve(PressuresRef pressures, const Wrench& ti
       return solution;
     }
     solution.buckled = report.buckled;
-    solution.numerical_error = (report.truncation + report.residual + report.iteration) * report.amplification;
+    solution.numerical_error = report.relativeError() * report.amplification;
     const Chain& chain = workspace.statics_.chain();
     solution.numerical_error += accumulateMaterial(chain, options_.accuracy, backbone, solution.material_compliance);
     solution.compliance = workspace.statics_.tangentCompliance();

@@ -57,7 +57,7 @@ bool BranchSearch::follow(const DeadLoads& target, double least_advance) {
   std::array<double, kMemory> reached{};  // shares, newest first
   std::array<Vector3, kMemory> moments;
   moments.fill(at_.base_moment);
-  int known = 1;
+  int known = 1, rejected = 0;
   double advance = kFirstAdvance;
   share_ = 0.0;
   lost_stability_ = false;
@@ -78,6 +78,7 @@ bool BranchSearch::follow(const DeadLoads& target, double least_advance) {
     if (!next || !next->stable || jumped) {
       lost_stability_ = next.has_value();
       advance *= 0.4;
+      if (next && ++rejected > 2) known = std::min(known, 2);  // the path is not as smooth as it looked
       continue;
     }
     for (int i = kMemory - 1; i > 0; --i) {
@@ -87,6 +88,7 @@ bool BranchSearch::follow(const DeadLoads& target, double least_advance) {
     share_ = reached[0] = trial;
     moments[0] = next->base_moment;
     known = std::min(known + 1, kMemory);
+    rejected = 0;
     moved_ = next->p_BT - at_.p_BT;
     at_ = *next;
     loads_ = loads;

@@ -325,24 +325,34 @@ bool StaticsSolver::findAlongLoads(const DeadLoads& loads, Backbone& backbone, S
 // Columns with a relative error x give a compliance with an error of about x. But the linearised rod is its own adjoint
 // as long as no tip moment acts, so the work of one wrench's moments on what another one's columns miss (their defect)
 // is that error to first order; without it x^2 is left. See docs/derivation.md.
+//
+// On a long taut chain the columns are far larger than the compliance made of them, as they are near a fold. Then so
+// much of x, and of rounding, is left, too.
 bool StaticsSolver::findTangent(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
+  constexpr double kRounding = 2e-16;
   const double goal = 0.2 * accuracy_, shape = report.iteration;
   const bool self_adjoint = angular(loads.tip).isZero(0.0);
-  double cancellation = 1.0;  // on a long taut chain the columns are far larger than the compliance made of them
+  double cancellation = 1.0, growth = 1.0;  // of linear columns alone, and of all
   for (int attempt = 0; attempt < 2; ++attempt) {
     ElementColumns tip;
-    const double error_goal = std::max(goal / (amplification_ * cancellation), 1e-16);
-    const double column_goal = self_adjoint ? std::sqrt(2.0 * error_goal / amplification_) : error_goal;
+    const double error_goal = std::max(goal / amplification_, 1e-16);
+    const double column_goal =
+        self_adjoint ? std::sqrt(2.0 * error_goal / amplification_) / growth : error_goal / cancellation;
     const double change = tipColumns(chain_, loads, !has_columns_, column_goal, backbone, tip, self_adjoint);
     has_columns_ = std::isfinite(change);
     if (!has_columns_) return false;
-    const auto p = columnsOf(tip.p);
+    const auto m = columnsOf(tip.m), p = columnsOf(tip.p), phi = columnsOf(tip.phi);
     backbone.passes->tangent(tip, self_adjoint, residual_inverse_.data(), tangent_.data());
     if (!std::isfinite(tangent_.sum())) return false;
     amplification_ = std::clamp(tangent_.diagonal().tail<3>().cwiseAbs().maxCoeff() / stiffest_, 1.0, kMostAmplification);
     cancellation = std::max(1.0, p.rightCols<3>().norm() / tangent_.topLeftCorner<3, 3>().norm());
-    const double left = (self_adjoint ? 0.5 * change * change * amplification_ : change) * cancellation;
+    // Without loads both are 1. Towards a bifurcation the condition grows as the amplification, which counts anyway.
+    const double inverse = residual_inverse_.norm(), condition = m.leftCols<3>().norm() * inverse / 3.0;
+    const double turning = phi.leftCols<3>().norm() * inverse / tangent_.bottomRightCorner<3, 3>().norm();
+    growth = std::max(cancellation, turning / std::sqrt(3.0));
+    const double left = self_adjoint ? 0.5 * std::pow(change * growth, 2) * amplification_ : change * cancellation;
     report.iteration = shape + left;
+    report.rounding = kRounding * growth * std::max(1.0, condition / amplification_);
     report.truncation = discretisation_.truncation(cancellation, backbone);
     if (left * amplification_ <= goal) break;
   }
@@ -351,7 +361,7 @@ bool StaticsSolver::findTangent(const DeadLoads& loads, Backbone& backbone, Stat
 }
 
 bool StaticsSolver::isStable(const DeadLoads& loads, const Backbone& backbone, const StaticsReport& report) const {
-  return isTipStable(tangent_, softness_, report.truncation + report.residual + report.iteration) &&
+  return isTipStable(tangent_, softness_, report.relativeError()) &&
          !(mayBuckle(loads, backbone) && hasConjugatePoint(backbone));
 }
 

@@ -22,7 +22,10 @@ struct StaticsReport {
   double residual = 0.0;       // of the tip moment, as bending of the softest segment over its length, rad
   double truncation = 0.0;     // estimated relative error of discretisation
   double iteration = 0.0;      // estimated relative error of shape and columns, left by their last passes
-  double amplification = 1.0;  // of all three in the tangent: how much softer it is than unloaded; grows towards buckling
+  double rounding = 0.0;       // estimated relative error of rounding; grows on long taut chains
+  double amplification = 1.0;  // of all of them in the tangent: how much softer it is than unloaded; grows towards buckling
+
+  double relativeError() const { return truncation + residual + iteration + rounding; }
 };
 
 class StaticsSolver {
