@@ -154,7 +154,7 @@ struct Material {
   // Weights, one row a lane, of integrals from 0 to x, times length: as Legendre series, which are exactly nothing at
   // x = 0:
   //   int P_k(xi) dx = (xi^2 - 1) P_k'(xi) / (2 k (k + 1)),  P_{k+1}' = P_{k-1}' + (2 k + 1) P_k,  xi = 2 x - 1.
-  static LIVE_STIFFNESS_INLINE void weights(Lanes x, double length, double (*of_lane)[kMaxNodes]) {
+  static LIVE_STIFFNESS_INLINE void weights(Lanes x, double length, Lanes (&weight)[kDense]) {
     const GaussLegendre& t = table();
     const Lanes xi = 2.0 * x - 1.0, bubble = 2.0 * x * (x - 1.0);
     Lanes integral[kDense], before = splat(1.0), now = xi, slope_before{}, slope = splat(1.0);
@@ -169,26 +169,30 @@ struct Material {
     }
 #pragma GCC unroll 12
     for (int k = 0; k < kDense; ++k) integral[k] *= length;
-    Lanes weight[kDense];
-#pragma GCC unroll 12
-    for (int j = 0; j < kDense; ++j) {
-      weight[j] = integral[0] * t.legendre[0][j];
-#pragma GCC unroll 12
-      for (int k = 1; k < kDense; ++k) weight[j] += integral[k] * t.legendre[k][j];
+    // Nodes lie symmetrically, and P_k is even or odd as k is.
+#pragma GCC unroll 6
+    for (int j = 0; j < kDense / 2; ++j) {
+      Lanes even = integral[0] * t.legendre[0][j], odd = integral[1] * t.legendre[1][j];
+#pragma GCC unroll 6
+      for (int k = 2; k < kDense; k += 2) {
+        even += integral[k] * t.legendre[k][j];
+        odd += integral[k + 1] * t.legendre[k + 1][j];
+      }
+      weight[j] = even + odd, weight[kDense - 1 - j] = even - odd;
     }
-    double* lanes[kLanes];
-    for (int lane = 0; lane < kLanes; ++lane) lanes[lane] = of_lane[lane];
-    storeAcross(weight, lanes);
   }
 
   static void stations(const ElementState& e, const StationBatch& s, int v) {
     const Lanes x = load(s.fraction, v);
-    double weight[kLanes][kMaxNodes] __attribute__((aligned(32)));
+    Lanes weight[kDense];
     weights(x, e.length, weight);
-    double total[kLanes][kDenseRow] __attribute__((aligned(32)));
-    for (int lane = 0; lane < kLanes; ++lane) weighted<kDenseRow>(e, weight[lane], total[lane]);
-    Lanes row[kDenseRow];
-    loadAcross(total, row);
+    Lanes row[kDenseRow - 1];
+#pragma GCC unroll 27
+    for (int i = 0; i < kDenseRow - 1; ++i) {
+      row[i] = weight[0] * e.dense[0][i];
+#pragma GCC unroll 12
+      for (int j = 1; j < kDense; ++j) row[i] += weight[j] * e.dense[j][i];
+    }
     Lanes3 g{row[kDenseRate], row[kDenseRate + 1], row[kDenseRate + 2]};
     if (e.unloaded) g = cayleyOfRotation((e.length * x) * splat(e.rest_curvature));
     const LanesMatrix R = splatMatrix(e.R_start) * cayley(g);

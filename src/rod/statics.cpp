@@ -332,27 +332,31 @@ bool StaticsSolver::findTangent(const DeadLoads& loads, Backbone& backbone, Stat
   constexpr double kRounding = 2e-16;
   const double goal = 0.2 * accuracy_, shape = report.iteration;
   const bool self_adjoint = angular(loads.tip).isZero(0.0);
-  double cancellation = 1.0, growth = 1.0;  // of linear columns alone, and of all
+  double cancellation = 1.0, growth_squared = 1.0;  // of linear columns alone, and of all
   for (int attempt = 0; attempt < 2; ++attempt) {
     ElementColumns tip;
     const double error_goal = std::max(goal / amplification_, 1e-16);
-    const double column_goal =
-        self_adjoint ? std::sqrt(2.0 * error_goal / amplification_) / growth : error_goal / cancellation;
+    const double column_goal = self_adjoint ? std::sqrt(2.0 * error_goal / (amplification_ * growth_squared))
+                                            : error_goal / cancellation;
     const double change = tipColumns(chain_, loads, !has_columns_, column_goal, backbone, tip, self_adjoint);
     has_columns_ = std::isfinite(change);
     if (!has_columns_) return false;
-    const auto m = columnsOf(tip.m), p = columnsOf(tip.p), phi = columnsOf(tip.phi);
     backbone.passes->tangent(tip, self_adjoint, residual_inverse_.data(), tangent_.data());
     if (!std::isfinite(tangent_.sum())) return false;
-    amplification_ = std::clamp(tangent_.diagonal().tail<3>().cwiseAbs().maxCoeff() / stiffest_, 1.0, kMostAmplification);
-    cancellation = std::max(1.0, p.rightCols<3>().norm() / tangent_.topLeftCorner<3, 3>().norm());
+    amplification_ =
+        std::clamp(tangent_.diagonal().tail<3>().cwiseAbs().maxCoeff() / stiffest_, 1.0, kMostAmplification);
+    const double p = columnsOf(tip.p).rightCols<3>().squaredNorm(), m = columnsOf(tip.m).leftCols<3>().squaredNorm(),
+                 phi = columnsOf(tip.phi).leftCols<3>().squaredNorm(), inverse = residual_inverse_.squaredNorm();
+    const double linear_part = std::max(1.0, p / tangent_.topLeftCorner<3, 3>().squaredNorm());
     // Without loads both are 1. Towards a bifurcation the condition grows as the amplification, which counts anyway.
-    const double inverse = residual_inverse_.norm(), condition = m.leftCols<3>().norm() * inverse / 3.0;
-    const double turning = phi.leftCols<3>().norm() * inverse / tangent_.bottomRightCorner<3, 3>().norm();
-    growth = std::max(cancellation, turning / std::sqrt(3.0));
-    const double left = self_adjoint ? 0.5 * std::pow(change * growth, 2) * amplification_ : change * cancellation;
+    const double angular_part = phi * inverse / (3.0 * tangent_.bottomRightCorner<3, 3>().squaredNorm());
+    const double condition = m * inverse / (9.0 * amplification_ * amplification_);
+    cancellation = std::sqrt(linear_part);
+    growth_squared = std::max(linear_part, angular_part);
+    const double left =
+        self_adjoint ? 0.5 * change * change * growth_squared * amplification_ : change * cancellation;
     report.iteration = shape + left;
-    report.rounding = kRounding * growth * std::max(1.0, condition / amplification_);
+    report.rounding = kRounding * std::sqrt(growth_squared * std::max(1.0, condition));
     report.truncation = discretisation_.truncation(cancellation, backbone);
     if (left * amplification_ <= goal) break;
   }
