@@ -79,8 +79,9 @@ TEST(ContactReplay, ForceAndTipAreThoseMeasured) {
   EXPECT_LT(score.rms_compliant, 0.12);
   EXPECT_GT(score.seen, 0.9);
   EXPECT_LT(score.longest_false, 1.0);
-  // Motion included, and without creep, which the node does not model; at rest it is a third of this.
-  EXPECT_LT(free.mean, 4e-3);
+  // Motion included. The sensor itself is 1 mm from the model's (RecordedMotion); at T, 15 mm from it, the orientation
+  // counts too, some degrees off on this recording.
+  EXPECT_LT(free.mean, 2.5e-3);
   EXPECT_LT(corrected.mean, 1e-3);  // half of the 2 mm that a sample may be off its own prediction
 }
 
