@@ -39,7 +39,8 @@ class Report:
                                "--fit-delay"], capture_output=True, text=True)
         found = re.search(r"^tracker delay: .*", done.stdout, re.M)
         self.say("- `%s`: %s" % (os.path.basename(path)[:-4], found.group(0)))
-        delay, error = (1e-3 * float(value) for value in re.search(r": (\S+) \+- (\S+) ms", found.group(0)).groups())
+        fitted = re.search(r": (\S+) \+- (\S+) ms", found.group(0))  # none: not determined
+        delay, error = (1e-3 * float(value) for value in fitted.groups()) if fitted else (0.0, 0.0)
         return delay if abs(delay) > 2.0 * error else 0.0
 
     def say(self, *lines):
