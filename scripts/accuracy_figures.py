@@ -41,17 +41,40 @@ def over_time(fits, samples, title, folder, name):
 
 
 def deflections(series, folder):
-    """Predicted against observed size of deflection. series: label, colour, observed, predicted (mm)."""
-    figure, axes = plt.subplots(1, len(series), figsize=(4.2 * len(series), 3.8), sharex=True, sharey=True,
-                                layout="constrained", squeeze=False)
-    most = max(max(observed + predicted) for _, _, observed, predicted in series)
-    for ax, (label, colour, observed, predicted) in zip(axes[0], series):
-        ax.plot([0, most], [0, most], color="#222222", linewidth=0.8)
-        ax.plot(observed, predicted, ".", color=colour, markersize=3)
+    """Size of the deflection over that of the lateral force. series: label, [(N, observed mm, predicted mm)]."""
+    figure, axes = plt.subplots(1, len(series), figsize=(2.7 * len(series), 3.2), sharex=True, sharey=True, layout="constrained")
+    for ax, (label, points) in zip(axes, series):
+        force, observed, predicted = zip(*points)
+        ax.plot(force, observed, ".-", color="#222222", markersize=4, linewidth=0.5, label="observed")
+        ax.plot(force, predicted, ".-", color="#c1121f", markersize=4, linewidth=0.5, label="predicted")
         ax.set_title(label, fontsize=10)
-        ax.set_xlabel("observed deflection, mm")
-    axes[0][0].set_ylabel("predicted from the measured force, mm")
+        ax.set_xlabel("measured lateral force, N")
+    axes[0].set_ylabel("deflection, mm")
+    axes[0].legend(loc="upper left")
     save(figure, folder, "accuracy_deflections")
+
+
+def forces(rows, folder):
+    """Measured and estimated force over time, base axes, with the estimate's own standard deviations."""
+    time = [float(row["time_s"]) for row in rows]
+    figure, axes = plt.subplots(3, 1, figsize=(9.2, 6.0), sharex=True, sharey=True, layout="constrained")
+    for ax, axis in zip(axes, "xyz"):
+        estimated, deviation, measured = ([float(row["%s_force_%s_n" % (kind, axis)]) for row in rows]
+                                          for kind in ("estimated", "deviation", "measured"))
+        for i, row in enumerate(rows[:-1]):
+            if row["contact"] == "1":
+                ax.axvspan(time[i], time[i + 1], color="#f4f0e6", linewidth=0, zorder=0)
+        ax.fill_between(time, [e - 2.0 * d for e, d in zip(estimated, deviation)],
+                        [e + 2.0 * d for e, d in zip(estimated, deviation)], color="#f4978e", alpha=0.5, linewidth=0,
+                        label="two standard deviations")
+        ax.plot(time, measured, color="#222222", linewidth=1.0, label="measured")
+        ax.plot(time, estimated, color="#c1121f", linewidth=1.0, label="estimated")
+        ax.set_ylabel("force along %s, N" % axis)
+    axes[0].set_xlim(14.0, 50.0)
+    axes[0].legend(ncol=3, loc="upper right")
+    axes[0].set_title("load_1, base axes; lateral channels of the force sensor (shaded: contact reported)", fontsize=10)
+    axes[2].set_xlabel("time, s")
+    save(figure, folder, "accuracy_forces")
 
 
 def tables(entries, folder):

@@ -1,4 +1,5 @@
 """Runs `calibrate` for scripts/accuracy_report and reads what it wrote."""
+import bisect
 import csv
 import math
 import os
@@ -13,8 +14,6 @@ MATERIAL = ["chamber_area_growth_per_pa", "pressure_stiffening"]
 ARM = "config/scenes/stiff_flop_recorded.yaml"
 # The source's own value; the scene's was tuned by hand on these recordings.
 PRIOR = ["--prior", "youngs_modulus_pa=120000:60000"]
-# How the force sensor of load_1 sits on the tip.
-FORCE_SENSOR = ["--force-sensor-azimuth-deg", "180", "--force-sensor-sign", "-1"]
 
 
 class Fit:
@@ -26,8 +25,6 @@ class Fit:
         if residuals and os.path.exists(residuals):
             with open(residuals, newline="") as file:
                 self.rows = list(csv.DictReader(file))
-        self.estimates = {m.group(1): (float(m.group(2)), float(m.group(3))) for m in re.finditer(
-            r"^([a-z_0-9]+) +([-\d.e+]+) +([\d.e+-]+) ", printed, re.M)}
 
     def errors(self, which, key="error_m"):
         return [float(row[key]) for row, wanted in zip(self.rows, which) if wanted and row[key]]
@@ -91,17 +88,23 @@ def summary(errors):
             ordered[-1], count)
 
 
-class Samples:
-    """Which samples of a recording are quasi-static and unloaded, as the data's README defines them."""
+def cells(errors):
+    return " | ".join("%.2f" % value for value in summary(errors)[:4])
 
-    def __init__(self, path):
+
+class Samples:
+    """Which samples of a recording are quasi-static and unloaded, as the data's README defines them, on the clock of a
+    tracker that is late by `delay` s."""
+
+    def __init__(self, path, delay=0.0):
         with open(path, newline="") as file:
             rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+        self.delay_by(rows, delay)
         self.path, self.rows = path, rows
         self.time = [row["time_s"] for row in rows]
         pressures = [[row["pressure_%d_pa_abs" % k] for k in (1, 2, 3)] for row in rows]
-        self.force = [math.hypot(*(row["force_%s_n" % axis] for axis in "xyz")) if "force_x_n" in row else 0.0
-                      for row in rows]
+        self.force, self.lateral = ([math.hypot(*(row.get("force_%s_n" % axis, 0.0) for axis in axes)) for row in rows]
+                                    for axes in ("xyz", "xy"))
         dropped = [False] * len(rows)
         for i, start in enumerate(self.time):
             j = i + 1
@@ -113,6 +116,19 @@ class Samples:
         self.quiet = [not d and f < 0.06 for d, f in zip(dropped, self.force)]
         self.loaded = [f >= 0.06 for f in self.force]
         self.all = [True] * len(rows)
+
+    @staticmethod
+    def delay_by(rows, delay):
+        """Pressures, forces and torques of each row become those of `delay` s before it."""
+        if delay == 0.0:
+            return
+        times = [row["time_s"] for row in rows]
+        for key in [key for key in rows[0] if key.startswith(("pressure_", "force_", "torque_"))]:
+            values = [row[key] for row in rows]
+            for row, time in zip(rows, times):
+                after = min(max(bisect.bisect_right(times, time - delay), 1), len(times) - 1)
+                share = min(max((time - delay - times[after - 1]) / (times[after] - times[after - 1]), 0.0), 1.0)
+                row[key] = (1.0 - share) * values[after - 1] + share * values[after]
 
     def displacement(self, pair, start, end):
         """Of the tip, mm, from the mean before 3 s to the mean over a span, and the pair's gauge pressure there, bar."""

@@ -1,22 +1,20 @@
-"""docs/accuracy.md: accuracy_page.py CALIBRATE DATA_FOLDER OUTPUT_FOLDER SCENE_FOLDER, called by scripts/accuracy_report."""
+"""docs/accuracy.md: accuracy_page.py PROGRAM_FOLDER DATA_FOLDER OUTPUT_FOLDER SCENE_FOLDER, called by scripts/accuracy_report."""
 import csv
 import math
 import os
 import re
 import shutil
+import subprocess
 import sys
 import tempfile
 
 import yaml
 
 import accuracy_figures as figures
-from accuracy_fits import ARM, CREEP, FORCE_SENSOR, GEOMETRY, MATERIAL, PRIOR, Fitter, Samples, summary, write_table
+from accuracy_fits import ARM, CREEP, GEOMETRY, MATERIAL, PRIOR, Fitter, Samples, cells, summary, write_table
+from accuracy_force import Force, Pushes
 
 MODELS = ("LPCC", "NPCC", "LCM", "NCM")
-
-
-def cells(errors):
-    return " | ".join("%.2f" % value for value in summary(errors)[:4])
 
 
 def met(value, target):
@@ -24,11 +22,26 @@ def met(value, target):
 
 
 class Report:
-    def __init__(self, program, data, output, scenes):
-        self.fitter = Fitter(program, tempfile.mkdtemp(prefix="accuracy_"))
-        self.output, self.scenes = output, scenes
-        self.recordings = {name: Samples(os.path.join(data, name + ".csv")) for name in ("no_load", "load_1")}
+    def __init__(self, programs, data, output, scenes):
+        self.fitter = Fitter(os.path.join(programs, "calibrate"), tempfile.mkdtemp(prefix="accuracy_"))
+        self.programs, self.output, self.scenes = programs, output, scenes
         self.lines, self.targets = [], []
+        self.recordings, self.delays = {}, {}
+        for name in ("no_load", "load_1"):
+            path = os.path.join(data, name + ".csv")
+            self.delays[name] = "%.3f" % self.delay_of(path)
+            self.recordings[name] = Samples(path, float(self.delays[name]))
+
+    def delay_of(self, path):
+        """By which a recording's tracker is late, s; within two standard errors of zero it is not."""
+        out = self.fitter.path("registration.yaml")
+        done = subprocess.run([os.path.join(self.programs, "register_recording"), ARM, path, out, "--samples", "quasi_static",
+                               "--fit-delay"], capture_output=True, text=True)
+        found = re.search(r"^tracker delay: .*", done.stdout, re.M)
+        self.say("- `%s`: %s" % (os.path.basename(path)[:-4], found.group(0)))
+        fitted = re.search(r": (\S+) \+- (\S+) ms", found.group(0))  # none: not determined
+        delay, error = (1e-3 * float(value) for value in fitted.groups()) if fitted else (0.0, 0.0)
+        return delay if abs(delay) > 2.0 * error else 0.0
 
     def say(self, *lines):
         self.lines += lines
@@ -38,7 +51,8 @@ class Report:
 
     # no_load has no contact and is used whole; load_1 where it is quasi-static and unloaded.
     def choice(self, recording):
-        return [] if recording == "no_load" else ["--samples", "quasi_static"]
+        late = [] if float(self.delays[recording]) == 0.0 else ["--tracker-delay-s", self.delays[recording]]
+        return late + ([] if recording == "no_load" else ["--samples", "quasi_static"])
 
     def fit(self, name, recording, parameters, options=(), scene=ARM, blocks=8):
         return self.fitter.run(name, scene, [self.recordings[recording].path, "--blocks", str(blocks), *PRIOR, *options,
@@ -110,8 +124,12 @@ class Report:
         for folder in (os.path.dirname(recording), self.fitter.folder):
             text = text.replace(folder + "/", "")
         text = re.sub(r"^(# converged); .* s$", r"\1", text, 1, re.M)  # how long it took differs from run to run
+        text = re.sub(r" +$", "", text, 0, re.M)
         with open(self.fitter.path("stiff_flop_calibrated.yaml"), "w") as file:
             file.write(text)
+
+    def keep_calibrated(self):
+        shutil.copy(self.fitter.path("stiff_flop_calibrated.yaml"), os.path.join(self.scenes, "stiff_flop_calibrated.yaml"))
 
     def materials(self):
         self.say("## Which material", "",
@@ -143,49 +161,6 @@ class Report:
                 name, summary(fit.errors(no_load.all))[0], 1e3 * fit.left_out(),
                 "%.2f" % summary(tested.errors(load_1.quiet))[0] if tested else "no solution"))
         self.say("")
-
-    def pushes(self):
-        samples = self.recordings["load_1"]
-        loads = ["--loads", "predict", *FORCE_SENSOR]
-        from_free = self.test("pushes from no_load", self.calibrated["no_load"], "load_1", loads)
-        without = self.test("pushes from no_load without force", self.calibrated["no_load"], "load_1")
-        fit = self.fitter.run("pushes fitted", ARM, [samples.path, "--loads", "fit", *FORCE_SENSOR, *PRIOR, "--no-orientation",
-                                                            "--samples", "quasi_static"],
-                              GEOMETRY + CREEP + MATERIAL + ["shear_modulus_pa", "link_mass_kg"])
-        own = fit and self.fitter.run("pushes fitted, registered unloaded", fit.scene,
-                                      [samples.path, "--blocks", "0", "--no-orientation", *loads, "--samples", "quasi_static"], [])
-        own_without = fit and self.test("pushes fitted without force", fit, "load_1")
-        self.say("## Pushes", "",
-                 "The samples of `load_1` with a measured force of at least 0.06 N. The registration is fitted to quasi-static",
-                 "unloaded samples only; then the measured wrench (sensor turned by 180 deg about z, sign reversed) acts on the",
-                 "model's tip. Error of the tip position in mm, of all samples under contact. The fit to the pushes is one to positions",
-                 "of quasi-static samples, with shear modulus and tip mass free too; its left out errors are those of its samples.", "", "| parameters from | | mean | RMS | p95 | max |",
-                 "|---|---|---|---|---|---|")
-        series = []
-        for label, colour, run, none in (("no_load", "#3a86ff", from_free, without),
-                                         ("load_1 with its pushes", "#c1121f", own, own_without)):
-            if not run or not none:
-                self.say("| %s | no solution | | | | |" % label)
-                continue
-            self.say("| %s | without the force | %s |" % (label, cells(none.errors(samples.loaded))))
-            self.say("| %s | with the force | %s |" % (label, cells(run.errors(samples.loaded))))
-            observed, predicted = [], []
-            for with_row, none_row, loaded in zip(run.rows, none.rows, samples.loaded):
-                if loaded:
-                    e0 = [float(none_row["error_%s_m" % axis]) for axis in "xyz"]
-                    e1 = [float(with_row["error_%s_m" % axis]) for axis in "xyz"]
-                    observed.append(1e3 * math.hypot(*e0))
-                    predicted.append(1e3 * math.hypot(*(b - a for a, b in zip(e0, e1))))
-            series.append((label, colour, observed, predicted))
-        if fit:
-            self.say("| load_1, block left out | with the force | %s |" % cells(
-                fit.errors(samples.loaded, "left_out_error_m")))
-        if series:
-            figures.deflections(series, os.path.join(self.output, "figures"))
-            self.say("", "![](figures/accuracy_deflections.svg)", "")
-        if own:
-            self.target("pushes of `load_1` explained by the measured force, mean (fitted on `load_1`)", 1.5,
-                        summary(own.errors(samples.loaded))[0], "mm")
 
     def tables(self):
         with open("test/data/paper_tables.yaml") as file:
@@ -243,9 +218,16 @@ class Report:
         self.say("", "![](figures/accuracy_tables.svg)", "")
 
     def write(self):
+        self.lines[:0] = ["## Delay of the tracker", "",
+                          "By `register_recording %s RECORDING registration.yaml --samples quasi_static --fit-delay`, from samples in motion that" % ARM,
+                          "nothing touches. All below is on the tracker's clock: each pose is compared with the pressures, and the force, of the",
+                          "delay before it. A delay within two standard errors of zero counts as none.", ""]
+        self.say("")
         self.free_motion()
+        self.keep_calibrated()
         self.materials()
-        self.pushes()
+        Pushes(self).write()
+        Force(self).write()
         self.tables()
         head = ["# Accuracy on real robots", "",
                 "Written by `scripts/accuracy_report`; do not edit. [calibration.md](calibration.md) explains the method.", "",
@@ -254,7 +236,6 @@ class Report:
                 "model, so that even *tested* is not blind.", ""]
         with open(os.path.join(self.output, "accuracy.md"), "w") as file:
             file.write("\n".join(head + self.lines).rstrip() + "\n")
-        shutil.copy(self.fitter.path("stiff_flop_calibrated.yaml"), os.path.join(self.scenes, "stiff_flop_calibrated.yaml"))
 
 
 if __name__ == "__main__":

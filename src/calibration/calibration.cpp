@@ -149,9 +149,10 @@ void describeRecording(CalibrationProblem& problem, const CalibrationProblem::So
 
 Wrench ForceSensorMount::atTip(const Wrench& reading, const Matrix3& R_BT) const {
   const Matrix3 R_BF = R_BT * expSo3(Vector3(0.0, 0.0, azimuth));
+  const Wrench counted = gains.cwiseProduct(reading);
   Wrench wrench;
-  linear(wrench) = sign * (R_BF * linear(reading));
-  angular(wrench) = sign * (R_BF * angular(reading)) + (R_BT * Vector3(0.0, 0.0, height)).cross(linear(wrench));
+  linear(wrench) = sign * (R_BF * linear(counted));
+  angular(wrench) = sign * (R_BF * angular(counted)) + (R_BT * Vector3(0.0, 0.0, height)).cross(linear(wrench));
   return wrench;
 }
 

@@ -14,7 +14,7 @@ namespace {
 constexpr double kTellingApart = 0.9;  // correlations above are named
 
 std::string padded(std::string text, size_t width) {
-  text.resize(std::max(width, text.size()), ' ');
+  text.resize(std::max(width, text.size() + 1), ' ');  // a space at least
   return text;
 }
 

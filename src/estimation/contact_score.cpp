@@ -4,21 +4,54 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <locale>
 #include <sstream>
 
+#include "live_stiffness/estimation/interpolation.h"
+
 namespace live_stiffness {
+namespace {
+
+// The part of a force along the two most compliant principal axes, base axes.
+Vector3 compliantPart(const Eigen::SelfAdjointEigenSolver<Matrix3>& principal, const Vector3& force) {
+  const auto axes = principal.eigenvectors().rightCols<2>();
+  return axes * (axes.transpose() * force);
+}
+
+void findDelay(const std::vector<double>& times, const std::vector<Vector3>& truth,
+               const std::vector<Vector3>& estimate, ContactScore& score) {
+  constexpr int kSteps = 100;
+  constexpr double kStep = ContactScore::kSettle / kSteps;
+  for (int step = -kSteps; step <= kSteps; ++step) {
+    double product = 0.0, truths = 0.0, estimates = 0.0;
+    for (size_t i = 0; i < times.size(); ++i) {
+      const Vector3 later = valueAt(estimate, placeIn(times, times[i] + step * kStep));
+      product += truth[i].dot(later);
+      truths += truth[i].squaredNorm();
+      estimates += later.squaredNorm();
+    }
+    if (!(truths > 0.0 && estimates > 0.0)) continue;
+    const double correlation = product / std::sqrt(truths * estimates);
+    if (correlation > score.correlation) score.correlation = correlation, score.delay = step * kStep;
+  }
+}
+
+}  // namespace
 
 ContactScore contactScore(const std::vector<ContactSample>& samples) {
   constexpr double kNever = -std::numeric_limits<double>::infinity();
   ContactScore score;
   double touched = kNever, gentle = samples.empty() ? 0.0 : samples.front().time, false_since = 0.0;
   bool was_false = false;
+  std::vector<double> times;
+  std::vector<Vector3> truths, estimates;  // compliant components
   int firm = 0, firm_seen = 0;
   for (const ContactSample& sample : samples) {
     const Eigen::SelfAdjointEigenSolver<Matrix3> principal(sample.compliance);
-    const auto compliant = [&](const Vector3& force) {
-      return (principal.eigenvectors().rightCols<2>().transpose() * force).eval();
-    };
+    const auto compliant = [&](const Vector3& force) { return compliantPart(principal, force); };
+    times.push_back(sample.time);
+    truths.push_back(compliant(sample.truth));
+    estimates.push_back(compliant(sample.estimate));
     const double truth = sample.truth.norm();
     if (truth < ContactScore::kFirm) gentle = sample.time;
     if (sample.time - gentle > ContactScore::kSettle) {
@@ -50,6 +83,7 @@ ContactScore contactScore(const std::vector<ContactSample>& samples) {
   for (double* sum : {&score.rms, &score.rms_truth, &score.rms_compliant, &score.rms_compliant_truth})
     *sum = std::sqrt(*sum / std::max(1, score.during));
   score.seen = static_cast<double>(firm_seen) / std::max(1, firm);
+  findDelay(times, truths, estimates, score);
   return score;
 }
 
@@ -59,7 +93,31 @@ std::string ContactScore::text() const {
   out << pushes << " pushes, " << during << " samples. Force: RMS error " << rms << " N (of " << rms_truth << " N), peak "
       << peak << " N (measured " << peak_truth << " N). Compliant components: RMS error " << rms_compliant << " N (of "
       << rms_compliant_truth << " N), peak " << peak_compliant << " N (measured " << peak_compliant_truth
-      << " N). Contact seen " << 100.0 * seen << " %, longest false " << longest_false << " s";
+      << " N). Contact seen " << 100.0 * seen << " %, longest false " << longest_false << " s. The estimate trails by "
+      << 1e3 * delay << " ms (correlation " << correlation << ")";
+  return out.str();
+}
+
+std::string ContactScore::table() const {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(9);
+  const auto row = [&](const char* quantity, double value) { out << quantity << ',' << value << '\n'; };
+  out << "quantity,value\n";
+  row("pushes", pushes);
+  row("during", during);
+  row("rms_n", rms);
+  row("rms_truth_n", rms_truth);
+  row("rms_compliant_n", rms_compliant);
+  row("rms_compliant_truth_n", rms_compliant_truth);
+  row("peak_n", peak);
+  row("peak_truth_n", peak_truth);
+  row("peak_compliant_n", peak_compliant);
+  row("peak_compliant_truth_n", peak_compliant_truth);
+  row("seen", seen);
+  row("longest_false_s", longest_false);
+  row("delay_s", delay);
+  row("correlation", correlation);
   return out.str();
 }
 

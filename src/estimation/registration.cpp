@@ -47,6 +47,8 @@ Registration parseRegistration(const std::string& yaml, const std::string& name)
   readDocument(yaml, faults, [&](YamlMap& map) {
     registration.X_AB = readPose(map, "base_in_tracker", faults);
     registration.X_TS = readPose(map, "sensor_on_tip", faults);
+    registration.tracker_delay =
+        map.number("tracker_delay_s", {-Registration::kLargestDelay, Registration::kLargestDelay}, 0.0);
     map.finish();
   });
   faults.throwIfAny();
@@ -65,6 +67,7 @@ std::string registrationText(const Registration& registration, const std::string
   for (std::string line; std::getline(lines, line);) text << "# " << line << "\n";
   writePose(text, "base_in_tracker", registration.X_AB);
   writePose(text, "sensor_on_tip", registration.X_TS);
+  if (registration.tracker_delay != 0.0) text << "tracker_delay_s: " << registration.tracker_delay << "\n";
   return text.str();
 }
 

@@ -16,7 +16,7 @@ Material firstMaterial(const Scene& scene) {
 SceneCreep::SceneCreep(const Scene& scene)
     : share_(firstMaterial(scene).creep_share), filter_(share_, firstMaterial(scene).creep_time) {}
 
-Pressures SceneCreep::update(PressuresRef pressures, double time) {
+const Pressures& SceneCreep::update(PressuresRef pressures, double time) {
   constexpr double kClockSet = 1.0;  // s
   if (time < time_ - kClockSet) filter_.reset();
   const double elapsed = std::max(0.0, time - time_);

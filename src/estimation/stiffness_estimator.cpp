@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <chrono>
+#include <cmath>
 
 namespace live_stiffness {
 namespace {
@@ -27,13 +28,27 @@ std::vector<Station> sampleBackbone(const StiffnessModel& model, const Stiffness
 
 StiffnessEstimator::StiffnessEstimator(Scene scene, const ModelOptions& model_options, EstimatorOptions options)
     : model_(std::move(scene), model_options), options_(checked(std::move(options))),
-      workspace_(model_.makeWorkspace()) {}
+      workspace_(model_.makeWorkspace()), creep_(model_.scene()) {}
+
+StiffnessEstimator::Outcome StiffnessEstimator::setPressures(PressuresRef pressures, double time) {
+  // What the solver will refuse must not get into the creep's memory.
+  if (!std::isfinite(time) || pressures.size() != model_.scene().chamberCount() || !pressures.allFinite())
+    return setPressures(pressures);
+  newest_pressures_ = pressures;
+  newest_effective_ = creep_.update(pressures, time);
+  return solveIfMoved();
+}
 
 StiffnessEstimator::Outcome StiffnessEstimator::setPressures(PressuresRef pressures) {
-  newest_pressures_ = pressures;
+  newest_pressures_ = newest_effective_ = pressures;
+  return solveIfMoved();
+}
+
+StiffnessEstimator::Outcome StiffnessEstimator::solveIfMoved() {
   has_pressures_ = true;
-  const bool comparable = has_solved_ && solved_pressures_.size() == pressures.size();
-  if (comparable && (pressures - solved_pressures_).norm() <= options_.update_threshold) return Outcome::kUnchanged;
+  const bool comparable = has_solved_ && solved_effective_.size() == newest_effective_.size();
+  if (comparable && (newest_effective_ - solved_effective_).norm() <= options_.update_threshold)
+    return Outcome::kUnchanged;
   return solve();
 }
 
@@ -46,10 +61,10 @@ StiffnessEstimator::Outcome StiffnessEstimator::setTipWrench(const Wrench& tip_w
 StiffnessEstimator::Outcome StiffnessEstimator::solve() {
   if (!has_pressures_) return Outcome::kUnchanged;
   has_solved_ = true;
-  solved_pressures_ = newest_pressures_;
+  solved_effective_ = newest_effective_;
   solved_wrench_ = newest_wrench_;
   const auto start = std::chrono::steady_clock::now();
-  candidate_.solution = model_.solve(newest_pressures_, newest_wrench_, workspace_);
+  candidate_.solution = model_.solve(newest_effective_, newest_wrench_, workspace_);
   status_ = candidate_.solution.status;
   if (!status_.ok()) return Outcome::kFailed;
   candidate_.stiffness = candidate_.solution.compliance.inverse();
@@ -59,6 +74,7 @@ StiffnessEstimator::Outcome StiffnessEstimator::solve() {
   }
   candidate_.solve_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   candidate_.pressures = newest_pressures_;
+  candidate_.effective = newest_effective_;
   candidate_.tip_wrench = newest_wrench_;
   candidate_.tip_ellipsoid = ellipsoidOf(candidate_.solution.compliance.topLeftCorner<3, 3>());
   candidate_.stations.clear();

@@ -8,10 +8,12 @@
 #include <optional>
 
 #include "any_recording.h"
+#include "force_sensor_options.h"
 #include "live_stiffness/calibration/calibration.h"
 #include "live_stiffness/calibration/calibration_report.h"
 #include "live_stiffness/calibration/scene_text.h"
 #include "live_stiffness/checks.h"
+#include "live_stiffness/estimation/tracker_delay.h"
 #include "live_stiffness/rod/scene_file.h"
 #include "progress_bar.h"
 
@@ -34,13 +36,15 @@ struct Arguments {
   std::vector<std::string> priors, bounds;
   int channels = 0;
   double position_mm = 0.5, rotation_deg = 1.0, compliance = 0.05, correlation = 1.0, huber = 2.0;
-  double sensor_azimuth_deg = 0.0, sensor_height = 0.0, sensor_sign = 1.0;
+  double tracker_delay = 0.0;
+  ForceSensorOptions force_sensor;
   int blocks = 8;
   bool no_orientation = false, no_priors = false, list = false, quiet = false;
 };
 
 po::options_description describe(Arguments& a) {
   po::options_description options("Options");
+  a.force_sensor.addTo(options);
   options.add_options()
     ("help,h", "print this and exit")
     ("scene", po::value(&a.scene)->required(), "scene file; its values are the start and the priors' means")
@@ -55,9 +59,8 @@ po::options_description describe(Arguments& a) {
     ("samples", po::value(&a.samples)->default_value(a.samples), "all, or quasi_static")
     ("loads", po::value(&a.loads)->default_value(a.loads),
      "samples under contact: ignore; predict (with the force sensor's wrench, not fitted); or fit")
-    ("force-sensor-azimuth-deg", po::value(&a.sensor_azimuth_deg)->default_value(0.0), "turn of the sensor about z of T")
-    ("force-sensor-height-m", po::value(&a.sensor_height)->default_value(0.0), "its origin above T")
-    ("force-sensor-sign", po::value(&a.sensor_sign)->default_value(1.0), "1: reports what acts on the robot; -1: the opposite")
+    ("tracker-delay-s", po::value(&a.tracker_delay)->default_value(0.0),
+     "by which the tracker is late against pressures and force sensor; register_recording --fit-delay finds it")
     ("channels", po::value(&a.channels), "pressure channels (default: those of the recording)")
     ("model", po::value(&a.model), "lpcc, npcc, lcm or ncm")
     ("stepping", po::value(&a.stepping), "fixed_step, continuous or linear")
@@ -134,7 +137,7 @@ int run(const Arguments& a, const std::string& command) {
   faults.check("blocks", a.blocks, {0.0, 1000.0});
   const auto loads = loadsNamed(a.loads);
   if (!loads) faults.add("loads '" + a.loads + "': must be ignore, predict or fit");
-  if (a.sensor_sign != 1.0 && a.sensor_sign != -1.0) faults.add("force-sensor-sign: must be 1 or -1");
+  faults.check("tracker-delay-s", a.tracker_delay, {-Registration::kLargestDelay, Registration::kLargestDelay});
   if (a.recordings.empty() && a.tables.empty() && !a.list) faults.add("give recordings, or compliance tables, or both");
   faults.throwIfAny();
   options.position_sigma = 1e-3 * a.position_mm;
@@ -144,11 +147,11 @@ int run(const Arguments& a, const std::string& command) {
   options.huber = a.huber;
   options.blocks = a.blocks;
   options.use_priors = !a.no_priors;
-  options.force_sensor = {radians(a.sensor_azimuth_deg), a.sensor_height, a.sensor_sign};
+  options.force_sensor = a.force_sensor.mount();
 
   std::vector<CalibrationRecording> recordings;
   for (const std::string& path : a.recordings) {
-    Recording recording = loadAnyRecording(path);
+    Recording recording = withTrackerDelay(loadAnyRecording(path), a.tracker_delay);
     recordings.emplace_back(std::move(recording),
                             a.samples == "all" ? SampleChoice::kAll : SampleChoice::kQuasiStatic, *loads);
   }
@@ -188,8 +191,11 @@ int run(const Arguments& a, const std::string& command) {
     saveSceneFile(a.output, result.scene, header);
     loadSceneFile(a.output);  // refuses parameters that are legal alone and do not fit together
   }
-  if (!a.registration.empty() && !recordings.empty())
-    saveRegistrationFile(a.registration, result.recordings.front().registration, header);
+  if (!a.registration.empty() && !recordings.empty()) {
+    Registration registration = result.recordings.front().registration;
+    registration.tracker_delay = a.tracker_delay;
+    saveRegistrationFile(a.registration, registration, header);
+  }
   if (!a.residuals.empty()) write(a.residuals, residualTable(result, recordings));
   if (!a.rows.empty()) write(a.rows, complianceTableOf(result));
   return result.converged ? kExitOk : kExitNotConverged;

@@ -9,8 +9,10 @@
 #include <iostream>
 
 #include "any_recording.h"
+#include "force_sensor_options.h"
 #include "live_stiffness/calibration/calibration.h"
 #include "live_stiffness/estimation/contact_score.h"
+#include "live_stiffness/estimation/tracker_delay.h"
 #include "live_stiffness/estimation/tip_wrench_estimator.h"
 #include "live_stiffness/rod/scene_file.h"
 
@@ -53,20 +55,24 @@ void writeRow(std::ostream& out, double time, const TipWrenchEstimator& estimato
 }
 
 void run(const std::string& scene_path, const std::string& recording_path, const std::string& registration_path,
-         const std::string& output, const ForceSensorMount& mount, const TipWrenchOptions& options) {
+         const std::string& output, const std::string& score_path, const ForceSensorMount& mount,
+         const TipWrenchOptions& options) {
   const Scene scene = loadSceneFile(scene_path);
   const Registration registration = loadRegistrationFile(registration_path);
-  const Recording recording = loadAnyRecording(recording_path);
+  const Recording recording = withTrackerDelay(loadAnyRecording(recording_path), registration.tracker_delay);
   const ChannelMap channels = ChannelMap::even(recording.channelCount(), scene.chamberCount());
   const std::vector<Pressures> gauge = gaugePressures(recording);
   ModelOptions model;
   model.stepping = Stepping::kContinuous;
   TipWrenchEstimator estimator(scene, model, options);
-  std::ofstream file;
-  if (!output.empty()) {
-    file.open(output);
-    if (!file) throw ConfigurationError("output " + output, {"cannot be written: is its folder there?"});
-  }
+  std::ofstream file, score_file;
+  const auto open = [](std::ofstream& stream, const std::string& path) {
+    if (path.empty()) return;
+    stream.open(path);
+    if (!stream) throw ConfigurationError("output " + path, {"cannot be written: is its folder there?"});
+  };
+  open(file, output);
+  open(score_file, score_path);
   std::ostream& out = output.empty() ? std::cout : file;
   out.precision(6);
   writeHeader(out);
@@ -88,7 +94,11 @@ void run(const std::string& scene_path, const std::string& recording_path, const
     scored.push_back({sample.time, linear(*measured), linear(estimate->wrench), 0.5 * (C + C.transpose()),
                       estimate->contact});
   }
-  if (!scored.empty()) std::cerr << contactScore(scored).text() << "\n";
+  if (!scored.empty()) {
+    const ContactScore score = contactScore(scored);
+    std::cerr << score.text() << "\n";
+    score_file << score.table();
+  }
   std::sort(microseconds.begin(), microseconds.end());
   const auto at = [&](double share) { return microseconds[static_cast<size_t>(share * (microseconds.size() - 1))]; };
   std::cerr << "one update: median " << numberText(at(0.5)) << " us, 99 % below " << numberText(at(0.99)) << " us, slowest "
@@ -98,9 +108,8 @@ void run(const std::string& scene_path, const std::string& recording_path, const
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string scene, recording, registration, output;
-  ForceSensorMount mount;
-  double azimuth_deg = 0.0;
+  std::string scene, recording, registration, output, score;
+  ForceSensorOptions force_sensor;
   TipWrenchOptions filter;
   double per_bar_m = 1e5 * filter.bias_position_per_pressure, per_bar_deg = 1e5 * degrees(filter.bias_rotation_per_pressure);
   po::options_description options("Options");
@@ -122,9 +131,8 @@ int main(int argc, char** argv) {
     ("force-walk", po::value(&filter.force_walk)->default_value(filter.force_walk), "how fast they change, N / sqrt(s)")
     ("scale-deviation", po::value(&filter.scale_deviation)->default_value(filter.scale_deviation),
      "uncertainty of the logarithm of the stiffness scale; 0: not adapted")
-    ("force-sensor-azimuth-deg", po::value(&azimuth_deg)->default_value(0.0), "force sensor's turn about z of T")
-    ("force-sensor-height-m", po::value(&mount.height)->default_value(0.0), "force sensor's origin above T")
-    ("force-sensor-sign", po::value(&mount.sign)->default_value(1.0), "-1: it reports what the robot exerts");
+    ("score", po::value(&score), "CSV file to write how well the estimate follows the recorded force: quantity,value");
+  force_sensor.addTo(options);
   po::positional_options_description positional;
   positional.add("scene", 1).add("recording", 1);
   try {
@@ -137,8 +145,7 @@ int main(int argc, char** argv) {
     po::notify(values);
     filter.bias_position_per_pressure = 1e-5 * per_bar_m;
     filter.bias_rotation_per_pressure = 1e-5 * radians(per_bar_deg);
-    mount.azimuth = radians(azimuth_deg);
-    run(scene, recording, registration, output, mount, filter);
+    run(scene, recording, registration, output, score, force_sensor.mount(), filter);
     return 0;
   } catch (const std::exception& error) {
     std::cerr << "estimate_wrench: " << error.what() << "\nSee estimate_wrench --help.\n";

@@ -8,6 +8,7 @@
 #include "live_stiffness/calibration/calibration.h"
 #include "live_stiffness/calibration/calibration_report.h"
 #include "live_stiffness/checks.h"
+#include "live_stiffness/estimation/tracker_delay.h"
 #include "live_stiffness/rod/scene_file.h"
 
 namespace po = boost::program_options;
@@ -18,13 +19,29 @@ namespace {
 constexpr int kExitOk = 0, kExitNotDetermined = 1, kExitUsage = 2;
 
 const char* const kHelp =
-    "register_recording SCENE.yaml RECORDING.csv|.bag OUT.yaml [--samples all|quasi_static] [--no-orientation]\n\n"
-    "Fits base in tracker and sensor on tip and writes them for the node (`registration`). Samples under contact are left\n"
-    "out. Exit status 1: written, but these data do not determine it.\n\n";
+    "register_recording SCENE.yaml RECORDING.csv|.bag OUT.yaml [--samples all|quasi_static] [--fit-delay]\n\n"
+    "Fits base in tracker and sensor on tip, and on demand how late the tracker is, and writes them for the node\n"
+    "(`registration`). Samples under contact are left out. Exit status 1: written, but these data do not determine it.\n\n";
+
+// What delay a registration still leaves, over all samples that nothing touches, in motion or not.
+TrackerDelay delayLeft(const Recording& recording, const RecordingFit& fit) {
+  std::vector<double> times;
+  std::vector<Vector3> predicted, measured;
+  std::vector<bool> used;
+  for (size_t i = 0; i < recording.samples.size(); ++i) {
+    const RecordedSample& sample = recording.samples[i];
+    times.push_back(sample.time);
+    measured.push_back(sample.tip_position);
+    predicted.push_back(sample.tip_position + fit.registration.X_AB.R * fit.position_residual[i]);
+    used.push_back(isUnloaded(sample));
+  }
+  return fitTrackerDelay(times, predicted, measured, used);
+}
 
 int run(const std::string& scene_path, const std::string& recording_path, const std::string& output_path,
-        const std::string& samples, bool orientation) {
+        const std::string& samples, bool orientation, double tracker_delay, bool fit_delay) {
   FaultList faults("options");
+  faults.check("tracker-delay-s", tracker_delay, {-Registration::kLargestDelay, Registration::kLargestDelay});
   if (samples != "all" && samples != "quasi_static")
     faults.add("samples '" + samples + "': must be all or quasi_static");
   faults.throwIfAny();
@@ -32,23 +49,40 @@ int run(const std::string& scene_path, const std::string& recording_path, const 
   options.model.stepping = Stepping::kContinuous;
   if (!orientation) options.rotation_sigma = 0.0;
   const Scene scene = loadSceneFile(scene_path);
-  const CalibrationRecording recording(loadAnyRecording(recording_path),
-                                       samples == "all" ? SampleChoice::kAll : SampleChoice::kQuasiStatic,
-                                       LoadedSamples::kIgnore);
-  const ChannelMap channels = ChannelMap::even(recording.recording.channelCount(), scene.chamberCount());
-  const CalibrationResult result = calibrate(scene, channels, {}, {recording}, {}, options);
-  const std::string report = reportText(result);
+  const Recording recording = loadAnyRecording(recording_path);
+  const ChannelMap channels = ChannelMap::even(recording.channelCount(), scene.chamberCount());
+  const auto registered = [&](double delay) {
+    const CalibrationRecording data(withTrackerDelay(recording, delay),
+                                    samples == "all" ? SampleChoice::kAll : SampleChoice::kQuasiStatic,
+                                    LoadedSamples::kIgnore);
+    return calibrate(scene, channels, {}, {data}, {}, options);
+  };
+  CalibrationResult result = registered(tracker_delay);
+  TrackerDelay found;
+  found.determined = true;
+  // Twice, as a registration by samples in motion is wrong by the delay at first.
+  for (int round = 0; fit_delay && found.determined && round < 2; ++round) {
+    const double rms_before = found.rms_before;
+    found = delayLeft(withTrackerDelay(recording, tracker_delay), result.recordings[0]);
+    if (round > 0) found.rms_before = rms_before;
+    found.delay = tracker_delay += found.delay;
+    result = registered(tracker_delay);
+  }
+  const std::string report = reportText(result) + (fit_delay ? found.text() + "\n" : "");
   std::cout << report;
-  saveRegistrationFile(output_path, result.recordings[0].registration,
+  Registration registration = result.recordings[0].registration;
+  registration.tracker_delay = tracker_delay;
+  saveRegistrationFile(output_path, registration,
                        "register_recording: " + recording_path + " with scene " + scene_path + "\n" + report);
-  return result.recordings[0].determined ? kExitOk : kExitNotDetermined;
+  return result.recordings[0].determined && found.determined ? kExitOk : kExitNotDetermined;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   std::string scene, recording, output, samples = "all";
-  bool no_orientation = false;
+  bool no_orientation = false, fit_delay = false;
+  double tracker_delay = 0.0;
   po::options_description options("Options");
   options.add_options()
     ("help,h", "print this and exit")
@@ -56,7 +90,9 @@ int main(int argc, char** argv) {
     ("recording", po::value(&recording)->required(), "CSV recording, or a bag")
     ("output", po::value(&output)->required(), "registration file to write")
     ("samples", po::value(&samples)->default_value(samples), "all (in motion too), or quasi_static (at rest only)")
-    ("no-orientation", po::bool_switch(&no_orientation), "use positions only; the sensor's rotation is then their mean");
+    ("no-orientation", po::bool_switch(&no_orientation), "use positions only; the sensor's rotation is then their mean")
+    ("tracker-delay-s", po::value(&tracker_delay)->default_value(0.0), "by which the tracker is late against the pressures")
+    ("fit-delay", po::bool_switch(&fit_delay), "fit that delay too, to the samples in motion");
   po::positional_options_description positional;
   positional.add("scene", 1).add("recording", 1).add("output", 1);
   try {
@@ -67,7 +103,7 @@ int main(int argc, char** argv) {
       return kExitOk;
     }
     po::notify(values);
-    return run(scene, recording, output, samples, !no_orientation);
+    return run(scene, recording, output, samples, !no_orientation, tracker_delay, fit_delay);
   } catch (const std::exception& error) {
     std::cerr << "register_recording: " << error.what() << "\nSee register_recording --help.\n";
     return kExitUsage;

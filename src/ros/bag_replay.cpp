@@ -9,6 +9,7 @@
 #include <optional>
 #include <sstream>
 
+#include "live_stiffness/estimation/motion_history.h"
 #include "live_stiffness/estimation/tip_force.h"
 
 namespace live_stiffness {
@@ -132,10 +133,12 @@ class Replay {
     if (!pressures_.take(reading, stamp)) return;
     is_stale_ = false;
     pressure_stamp_ = stamp;
-    StiffnessEstimator::Outcome outcome = estimator_.setPressures(map->expand(reading.value));
+    StiffnessEstimator::Outcome outcome = estimator_.setPressures(map->expand(reading.value), stamp.toSec());
     const bool is_due = (stamp - estimate_stamp_).toSec() >= 1.0 / options_.heartbeat || stamp < estimate_stamp_;
     if (outcome == StiffnessEstimator::Outcome::kUnchanged && is_due) outcome = estimator_.solve();
     react(outcome);
+    if (estimator_.estimate() != nullptr && !is_stale_)
+      history_.add({stamp.toSec(), estimator_.pressures(), estimator_.estimate()->solution.X_BT});
   }
 
   void onWrench(const geometry_msgs::WrenchStamped& message) {
@@ -147,9 +150,11 @@ class Replay {
 
   void onPose(const Reading<TrackedPose>& reading) {
     const ros::Time stamp = stampOf(reading.stamp);
-    if (!poses_.take(reading, stamp) || is_stale_ || estimator_.estimate() == nullptr) return;
+    if (!poses_.take(reading, stamp) || is_stale_ || estimator_.estimate() == nullptr || history_.empty()) return;
     const Pose measured = options_.registration.tipPose(reading.value.pose);
-    const Pose& predicted = estimator_.estimate()->solution.X_BT;
+    const double delay = options_.registration.tracker_delay;
+    const Pose predicted =
+        delay == 0.0 ? estimator_.estimate()->solution.X_BT : history_.at(stamp.toSec() - delay).X_BT;
     const Twist residual = residualTwist(measured, predicted);
     tracking_errors_.push_back(linear(residual).norm());
     bag_.write("/stiffness_node/tracking_error", recorded_,
@@ -178,6 +183,7 @@ class Replay {
   const ReplayOptions& options_;
   std::optional<ChannelMap> channel_map_;
   StiffnessEstimator estimator_;
+  MotionHistory history_;
   rosbag::Bag bag_;
   TopicWatch pressures_, poses_, wrenches_;
   ros::Time recorded_, pressure_stamp_, estimate_stamp_;

@@ -46,11 +46,12 @@ bool RegistrationService::answer(Register::Request& request, Register::Response&
   window.duration = request.duration == 0.0 ? parameters_.registration_buffer : request.duration;
   window.quasi_static_only = request.quasi_static_only;
   window.leave_out_contact = request.leave_out_contact;
-  const LiveRegistration result = buffer_.fit(window);
+  LiveRegistration result = buffer_.fit(window);
   if (!result.fault.empty()) {
     response.message = result.fault;
     return true;
   }
+  result.fit.registration.tracker_delay = parameters_.registration.tracker_delay;  // its poses came corrected for it
   fillRegistration(result, response);
   response.success = true;
   response.message = result.text();

@@ -64,7 +64,9 @@ void StiffnessNode::onPressures(const Pressures& pressures, const ros::Time& sta
   pressure_stamp_ = stamp;
   input_fault_.clear();
   registration_.addPressures(pressures, stamp);
-  react(estimator_.setPressures(pressures));
+  react(estimator_.setPressures(pressures, stamp.toSec()));
+  if (estimator_.estimate() != nullptr && estimator_.status().ok())
+    history_.add({stamp.toSec(), pressures, estimator_.estimate()->solution.X_BT});
 }
 
 void StiffnessNode::react(StiffnessEstimator::Outcome outcome) {
@@ -93,14 +95,17 @@ void StiffnessNode::onHeartbeat(const ros::TimerEvent&) {
 }
 
 void StiffnessNode::onTracked(const Pose& X_AS, const Pose& measured_X_BT, const ros::Time& stamp) {
-  registration_.addPose(X_AS, estimator_.tipWrench(), contact_.inContact(), stamp);
-  if (estimator_.estimate() == nullptr || isStale()) return;
+  // A late tracker shows how the robot stood then.
+  const double delay = parameters_.registration.tracker_delay, time = stamp.toSec() - delay;
+  registration_.addPose(X_AS, estimator_.tipWrench(), contact_.inContact(), time);
+  if (estimator_.estimate() == nullptr || isStale() || history_.empty()) return;
   const Estimate& estimate = *estimator_.estimate();
-  const Twist residual = residualTwist(measured_X_BT, estimate.solution.X_BT);
+  const Moment then =
+      delay == 0.0 ? Moment{time, estimator_.pressures(), estimate.solution.X_BT} : history_.at(time);
+  const Twist residual = residualTwist(measured_X_BT, then.X_BT);
   tracking_error_ = linear(residual).norm();
-  error_publisher_.publish(
-      toTrackingError(measured_X_BT, estimate.solution.X_BT, residual, stamp, parameters_.frames.base));
-  contact_.update(estimator_.pressures(), estimate.tip_wrench, tracker_input_.repeatsItself() ? nullptr : &measured_X_BT,
+  error_publisher_.publish(toTrackingError(measured_X_BT, then.X_BT, residual, stamp, parameters_.frames.base));
+  contact_.update(then.pressures, estimate.tip_wrench, tracker_input_.repeatsItself() ? nullptr : &measured_X_BT,
                   stamp);
 }
 

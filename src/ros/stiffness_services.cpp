@@ -61,7 +61,7 @@ bool StiffnessServices::predictDeflection(PredictDeflection::Request& request, P
   const Reading<Wrench> wrench = readWrench(request.wrench, frames_, &estimate.solution.X_BT);
   if (!wrench.ok()) return refuse(wrench.fault, response);
   const DeflectionCheck check =
-      checkDeflection(model_, estimate.pressures, estimate.tip_wrench, wrench.value, workspace_);
+      checkDeflection(model_, estimate.effective, estimate.tip_wrench, wrench.value, workspace_);
   if (check.undeflected_ok && !isSameEquilibrium(check.undeflected, estimate.solution.X_BT, model_))
     return refuse(kOtherShape, response);
   if (check.undeflected_ok && !check.predicted.twist.allFinite())
@@ -81,7 +81,7 @@ bool StiffnessServices::complianceAt(ComplianceAt::Request& request, ComplianceA
   if (!faults.empty()) return refuse(joined(faults.faults()), response);
   const Estimate& estimate = *newest.estimate;
   workspace_.reset();
-  const StiffnessSolution solution = model_.solve(estimate.pressures, estimate.tip_wrench, workspace_);
+  const StiffnessSolution solution = model_.solve(estimate.effective, estimate.tip_wrench, workspace_);
   if (!solution.status.ok()) return refuse(model_.describe(solution.status), response);
   if (!isSameEquilibrium(solution.X_BT, estimate.solution.X_BT, model_)) return refuse(kOtherShape, response);
   const GeneralisedCompliance tangent(model_, workspace_, estimate.tip_wrench, {{request.segment, request.fraction}});

@@ -140,7 +140,7 @@ void TipHandle::onFeedback(const InteractiveMarkerFeedback::ConstPtr& feedback) 
 }
 
 bool TipHandle::isAnswered(const Estimate& estimate) const {
-  return asked_ && asked_->pressures == estimate.pressures && asked_->tip_wrench == estimate.tip_wrench &&
+  return asked_ && asked_->effective == estimate.effective && asked_->tip_wrench == estimate.tip_wrench &&
          asked_->X_BH.p == dragged_->p && asked_->X_BH.R == dragged_->R;
 }
 
@@ -155,7 +155,7 @@ void TipHandle::update() {
   const ros::WallTime start = ros::WallTime::now();
   if (!isAnswered(estimate) && start >= next_answer_) {
     ghost_ = answer(estimate);
-    asked_ = Asked{estimate.pressures, estimate.tip_wrench, *dragged_};
+    asked_ = Asked{estimate.effective, estimate.tip_wrench, *dragged_};
     const ros::WallTime end = ros::WallTime::now();
     next_answer_ = end + (end - start) * 4.0;
   }
@@ -172,7 +172,7 @@ Ghost TipHandle::answer(const Estimate& estimate) {
 Ghost TipHandle::answerForce(const Estimate& estimate) {
   HoldGoal goal{dragged_->p, std::nullopt};
   if (question_ == Question::kWrenchAtPose) goal.orientation = dragged_->R;
-  const HoldingWrench found = findHoldingWrench(model_, estimate.pressures, estimate.tip_wrench, goal, workspace_);
+  const HoldingWrench found = findHoldingWrench(model_, estimate.effective, estimate.tip_wrench, goal, workspace_);
   Ghost ghost;
   if (!found.before.status.ok()) {
     ghost.text = "no ghost: " + model_.describe(found.before.status);
@@ -192,7 +192,7 @@ Ghost TipHandle::answerForce(const Estimate& estimate) {
 }
 
 Ghost TipHandle::answerDeflection(const Estimate& estimate) {
-  const DeflectionCheck check = checkDeflection(model_, estimate.pressures, estimate.tip_wrench, wrench_, workspace_);
+  const DeflectionCheck check = checkDeflection(model_, estimate.effective, estimate.tip_wrench, wrench_, workspace_);
   Ghost ghost;
   if (!check.undeflected_ok || !check.status.ok()) {
     ghost.text = wrenchText(wrench_) + "\nno ghost: " + model_.describe(check.status);

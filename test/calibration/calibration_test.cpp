@@ -195,6 +195,15 @@ TEST(ForceSensorMount, CarriesTheWrenchToTheTipInBaseAxes) {
   EXPECT_LT((at_tip - expected).norm(), 1e-15);
 }
 
+TEST(ForceSensorMount, ChannelOfNoGainIsLeftOutInTheSensorsOwnAxes) {
+  ForceSensorMount mount{radians(90.0)};
+  mount.gains << 1.0, 1.0, 0.0, 0.0, 0.0, 0.0;
+  const Wrench reading = Wrench::Ones();
+  Wrench expected;
+  expected << -1.0, 1.0, 0.0, 0.0, 0.0, 0.0;
+  EXPECT_LT((mount.atTip(reading, Matrix3::Identity()) - expected).norm(), 1e-15);
+}
+
 TEST(Calibration, RefusesWhatDoesNotFit) {
   EXPECT_THROW(sceneParameter("gent_limit", arm(), kPairs), ConfigurationError);
   EXPECT_THROW(sceneParameter("colour", arm(), kPairs), ConfigurationError);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace live_stiffness {
 namespace {
 
@@ -62,6 +64,27 @@ TEST(ContactScore, SmallEstimatesAndReportsWithoutSamplesAreNoFalseContact) {
   EXPECT_EQ(contactScore(samples).longest_false, 0.0);
   EXPECT_EQ(contactScore(samples).pushes, 0);
   EXPECT_EQ(contactScore({}).rms, 0.0);
+}
+
+TEST(ContactScore, DelayIsTheShiftAtWhichTheEstimateFollowsTheTruthBest) {
+  for (double delay : {0.0, 0.12, -0.2}) {
+    std::vector<ContactSample> samples = pushedTwice(Vector3::Zero(), Vector3::Zero());
+    const auto push = [](double time) { return 0.4 * std::exp(-std::pow((time - 5.0) / 0.8, 2)); };
+    for (ContactSample& sample : samples) {
+      sample.truth = Vector3(push(sample.time), 0.0, 0.0);
+      // Half the force, and along z what position does not show.
+      sample.estimate = Vector3(0.5 * push(sample.time - delay), 0.0, push(sample.time - 0.5));
+    }
+    EXPECT_NEAR(contactScore(samples).delay, delay, 0.005 + 1e-9);  // half a step
+    EXPECT_NEAR(contactScore(samples).correlation, 1.0, 1e-3);      // chords over 50 ms
+  }
+  EXPECT_EQ(contactScore(pushedTwice(Vector3::Zero(), Vector3::Zero())).correlation, 0.0);
+}
+
+TEST(ContactScore, TableHoldsWhatTheTextSays) {
+  const ContactScore score = contactScore(pushedTwice(Vector3(0.3, 0.0, 0.4), Vector3(0.0, 0.03, -0.4)));
+  EXPECT_NE(score.table().find("\npushes,2\n"), std::string::npos);
+  EXPECT_NE(score.table().find("\nrms_compliant_n,0.03\n"), std::string::npos);
 }
 
 }  // namespace

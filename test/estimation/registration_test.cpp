@@ -48,6 +48,15 @@ TEST(Registration, TextReadsBack) {
   expectSame(back.X_TS, example().X_TS);
 }
 
+TEST(Registration, DelayOfTheTrackerReadsBackAndIsZeroWhereItIsLeftOut) {
+  Registration late = example();
+  late.tracker_delay = 0.1503;
+  EXPECT_EQ(parseRegistration(registrationText(late), "test").tracker_delay, 0.1503);
+  EXPECT_EQ(parseRegistration(kGood, "test").tracker_delay, 0.0);
+  ASSERT_EQ(faultsOf(std::string(kGood) + "tracker_delay_s: 3\n").size(), 1u);
+  EXPECT_NE(faultsOf(std::string(kGood) + "tracker_delay_s: 3\n")[0].find(">= -1 and <= 1"), std::string::npos);
+}
+
 TEST(Registration, FileReadsBack) {
   const std::string path = testing::TempDir() + "registration_test_" + std::to_string(getpid()) + ".yaml";
   saveRegistrationFile(path, example());

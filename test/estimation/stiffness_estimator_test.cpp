@@ -31,6 +31,51 @@ TEST_F(StiffnessEstimatorTest, SolvesOnlyWhenPressuresMoveByMoreThanTheThreshold
   EXPECT_EQ(estimator_.estimate()->pressures, near);
 }
 
+Scene creepingScene(double share) {
+  Scene scene = loadSceneFile(std::string(SOURCE_DIR) + "/config/scenes/paper_one_segment.yaml");
+  Material& material = std::get<Segment>(scene.chain.front()).section.material;
+  material.creep_share = share;
+  material.creep_time = 2.0;
+  return scene;
+}
+
+TEST(StiffnessEstimatorCreep, AStepOfPressureActsLaterByTheScenesShareAndIsThenThatOfARobotWithout) {
+  StiffnessEstimator creeping(creepingScene(0.1), ModelOptions(), EstimatorOptions());
+  StiffnessEstimator relaxed(creepingScene(0.0), ModelOptions(), EstimatorOptions());
+  const Pressures rest = Pressures::Zero(6);
+  Pressures step = rest;
+  step.head(2).setConstant(60e3);
+  creeping.setPressures(rest, 100.0);
+  creeping.setPressures(step, 100.0);
+  relaxed.setPressures(0.9 * step, 100.0);
+  EXPECT_EQ(creeping.estimate()->pressures, step);
+  EXPECT_LT((creeping.estimate()->effective - 0.9 * step).norm(), 1e-9);
+  EXPECT_LT((creeping.estimate()->solution.X_BT.p - relaxed.estimate()->solution.X_BT.p).norm(), 1e-9);
+  relaxed.setPressures(step, 101.0);
+  const Vector3 settled = relaxed.estimate()->solution.X_BT.p;
+  double last = (creeping.estimate()->solution.X_BT.p - settled).norm();
+  EXPECT_GT(last, 1e-3);
+  for (int k = 1; k <= 400; ++k) {  // ten time constants
+    creeping.setPressures(step, 100.0 + 0.05 * k);
+    const double distance = (creeping.estimate()->solution.X_BT.p - settled).norm();
+    EXPECT_LE(distance, last);
+    last = distance;
+  }
+  // The threshold of 1 kPa in the 2-norm is 1.2 % of the step's, which moves the tip by about as much of its way.
+  EXPECT_LT(last, 1e-3);
+}
+
+TEST(StiffnessEstimatorCreep, RefusedPressuresLeaveNoTraceInIt) {
+  StiffnessEstimator creeping(creepingScene(0.1), ModelOptions(), EstimatorOptions());
+  const Pressures pressures = Pressures::Constant(6, 20e3);
+  creeping.setPressures(pressures, 1.0);
+  const Pressures unknown = Pressures::Constant(6, std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(creeping.setPressures(unknown, 1.1), Outcome::kFailed);
+  EXPECT_EQ(creeping.setPressures(Pressures::Constant(3, 1e3), 1.2), Outcome::kFailed);
+  EXPECT_EQ(creeping.setPressures(pressures, 1.3), Outcome::kSolved);
+  EXPECT_EQ(creeping.estimate()->effective, pressures);
+}
+
 TEST_F(StiffnessEstimatorTest, SolvesOnAChangedTipWrench) {
   EXPECT_EQ(estimator_.setTipWrench(Wrench::Zero()), Outcome::kUnchanged) << "no pressures yet";
   estimator_.setPressures(pressures_);

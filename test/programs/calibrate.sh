@@ -25,9 +25,13 @@ status=0
 [ $status = 1 ] || fail "register_recording: status $status instead of 1"
 grep -q 'NOT determined' "$dir/registration.yaml" || fail "the file does not carry the verdict"
 grep -q '^sensor_on_tip' "$dir/registration.yaml" || fail "no registration was written"
+"$register" "$arm" "$dir/rest.csv" "$dir/registration.yaml" --fit-delay >"$dir/verdict" 2>&1 || true
+grep -q 'tracker delay: NOT determined' "$dir/verdict" || fail "a delay was determined at rest"
+! grep -q '^tracker_delay_s' "$dir/registration.yaml" || fail "a delay that is not determined was written"
 
 # Faults: one message, status 2, nothing written.
-for bad in "-p colour" "--blocks -1 -p none" "--samples some" "--prior youngs_modulus_pa=1" "--loads all" "missing.csv"; do
+for bad in "-p colour" "--blocks -1 -p none" "--samples some" "--prior youngs_modulus_pa=1" "--loads all" "missing.csv" \
+    "--tracker-delay-s 3 -p none" "--force-sensor-channels fx gy -p none" "--force-sensor-sign 0 -p none"; do
   status=0
   # shellcheck disable=SC2086
   "$calibrate" "$arm" "$dir/rest.csv" $bad -o "$dir/bad.yaml" -q >"$dir/log" 2>&1 || status=$?

@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "live_stiffness/checks.h"
+#include "live_stiffness/estimation/scene_creep.h"
 #include "support/matrix_near.h"
 #include "support/scenes.h"
 
@@ -40,10 +41,10 @@ class BagReplay : public ::testing::Test {
     pressures[0] = pressures[1] = 4e4 * (1.0 - std::cos(time));
     return pressures;
   }
-  void record(double time, double tip_error = 0.0) {
+  void record(double time, double tip_error = 0.0, double delay = 0.0) {
     StiffnessWorkspace workspace = model_.makeWorkspace();
     bag_.write("/chamber_pressures", stamp(time), toPressures(at(time), stamp(time)));
-    Pose X_BT = model_.solve(at(time), Wrench::Zero(), workspace).X_BT;
+    Pose X_BT = model_.solve(at(time - delay), Wrench::Zero(), workspace).X_BT;
     X_BT.p.x() += tip_error;
     const ros::Time seen = stamp(time + 1e-3);  // messages of one time come in no certain order
     bag_.write("aurora_pose", seen, toPoseStamped(options_.registration.sensorPose(X_BT), seen, "aurora"));
@@ -90,6 +91,38 @@ TEST_F(BagReplay, ReportsTheTrackingError) {
   EXPECT_NEAR(report.tracking_error.mean, 2e-3, 1e-9);
   EXPECT_NEAR(report.tracking_error.max, 2e-3, 1e-9);
   EXPECT_NE(report.text(in_, 1e-9).find("mean 2.00"), std::string::npos) << report.text(in_, 1e-9);
+}
+
+TEST_F(BagReplay, ComparesALateTrackerWithTheRobotOfThatTime) {
+  options_.estimator.update_threshold = 0.0;
+  for (int i = 0; i < 200; ++i) record(i / kRate, 0.0, 0.15);
+  options_.registration.tracker_delay = 0.15;
+  const ReplayReport report = replay();
+  EXPECT_EQ(report.tracking_error.count, 200);
+  // Poses are stamped a millisecond late, at up to 40 mm/s; the first six are of a time before the bag.
+  EXPECT_LT(report.tracking_error.p95, 0.1e-3);
+  options_.registration.tracker_delay = 0.0;
+  EXPECT_GT(replayBag(in_, out_, model_.scene(), ModelOptions(), options_).tracking_error.mean, 0.5e-3);
+}
+
+TEST_F(BagReplay, CreepsAsTheSceneDoes) {
+  options_.estimator.update_threshold = 0.0;
+  Scene scene = model_.scene();
+  Material& material = std::get<Segment>(scene.chain.front()).section.material;
+  material.creep_share = 0.2;
+  material.creep_time = 1.5;
+  SceneCreep creep(scene);
+  StiffnessWorkspace workspace = model_.makeWorkspace();
+  for (int i = 0; i < 200; ++i) {
+    const ros::Time now = stamp(i / kRate);
+    bag_.write("/chamber_pressures", now, toPressures(at(i / kRate), now));
+    const Pressures& effective = creep.update(at(i / kRate), now.toSec());
+    const Pose X_BT = model_.solve(effective, Wrench::Zero(), workspace).X_BT;
+    bag_.write("aurora_pose", now + ros::Duration(1e-3),
+               toPoseStamped(options_.registration.sensorPose(X_BT), now + ros::Duration(1e-3), "aurora"));
+  }
+  EXPECT_GT(replay().tracking_error.mean, 0.5e-3);
+  EXPECT_LT(replayBag(in_, out_, scene, ModelOptions(), options_).tracking_error.max, 1e-7);  // accuracy of the solver
 }
 
 TEST_F(BagReplay, ReportsRatesAndTheLongestGap) {

@@ -10,6 +10,7 @@
 
 #include "live_stiffness/estimation/error_summary.h"
 #include "live_stiffness/estimation/contact_score.h"
+#include "live_stiffness/estimation/interpolation.h"
 #include "live_stiffness/ros/conversions.h"
 #include "support/contact_message.h"
 #include "support/driven_node.h"
@@ -17,17 +18,20 @@
 namespace live_stiffness {
 namespace {
 
-// The force sensor of these recordings is turned by 180 deg about z and measures what the robot exerts.
-Vector3 onTheRobot(const geometry_msgs::Vector3& f) { return {f.x, f.y, -f.z}; }
+// The lateral force alone: the axial reading of these recordings does not act on the arm (docs/accuracy.md).
+Vector3 lateral(const geometry_msgs::Vector3& f) { return {f.x, f.y, 0.0}; }
 
 TEST(ContactReplay, ForceAndTipAreThoseMeasured) {
-  std::map<ros::Time, Vector3> sensed;  // on the robot, axes of T, N
+  std::vector<double> sensed_times;
+  std::vector<Vector3> sensed;          // on the robot, axes of T, N
   std::map<ros::Time, Pose> poses;      // X_AS
   ros::Time end;
   rosbag::Bag bag(parameter("bag"));
   for (const rosbag::MessageInstance& instance : rosbag::View(bag)) {
-    if (const auto message = instance.instantiate<geometry_msgs::WrenchStamped>())
-      sensed[message->header.stamp] = onTheRobot(message->wrench.force);
+    if (const auto message = instance.instantiate<geometry_msgs::WrenchStamped>()) {
+      sensed_times.push_back(message->header.stamp.toSec());
+      sensed.push_back(lateral(message->wrench.force));
+    }
     if (const auto message = instance.instantiate<geometry_msgs::PoseStamped>())
       poses[message->header.stamp] = readPose(message->pose).value;
     end = std::max(end, instance.getTime());
@@ -54,9 +58,10 @@ TEST(ContactReplay, ForceAndTipAreThoseMeasured) {
   for (const auto& contact : contacts) {
     ASSERT_TRUE(isFinite(*contact));
     const ros::Time stamp = contact->header.stamp;
-    ASSERT_EQ(sensed.count(stamp), 1u) << "stamps are those of recorded poses";
+    ASSERT_EQ(poses.count(stamp), 1u) << "stamps are those of recorded poses";
     const Pose measured = registration.tipPose(poses.at(stamp));
-    const Vector3 force = measured.R * sensed.at(stamp);
+    const double then = stamp.toSec() - registration.tracker_delay;
+    const Vector3 force = measured.R * valueAt(sensed, placeIn(sensed_times, then));
     samples.push_back({stamp.toSec(), force, vectorFrom(contact->wrench.force), translationalCompliance(*contact),
                        contact->contact != 0});
     corrected_errors.push_back((positionOf(contact->tip_pose) - measured.p).norm());
@@ -74,8 +79,9 @@ TEST(ContactReplay, ForceAndTipAreThoseMeasured) {
   EXPECT_LT(score.rms_compliant, 0.12);
   EXPECT_GT(score.seen, 0.9);
   EXPECT_LT(score.longest_false, 1.0);
-  // Motion included, and without creep, which the node does not model; at rest it is a third of this.
-  EXPECT_LT(free.mean, 4e-3);
+  // Motion included. The sensor itself is 1 mm from the model's (RecordedMotion); at T, 15 mm from it, the orientation
+  // counts too, some degrees off on this recording.
+  EXPECT_LT(free.mean, 2.5e-3);
   EXPECT_LT(corrected.mean, 1e-3);  // half of the 2 mm that a sample may be off its own prediction
 }
 

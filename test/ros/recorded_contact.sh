@@ -11,9 +11,9 @@ set +u; source "$build/devel/setup.bash"; set -u
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 programs=$build/devel/lib/live_stiffness
-# Fitted to no_load alone; of load_1 only where base and sensor are, at rest and untouched.
+# Fitted to no_load alone; of load_1 only where base and sensor are, at rest and untouched, and how late the tracker is.
 scene=$source/config/scenes/stiff_flop_calibrated.yaml
 "$programs/recording_to_bag" "$recording" "$work/load_1.bag"
-"$programs/register_recording" "$scene" "$recording" "$work/registration.yaml" --samples quasi_static
+"$programs/register_recording" "$scene" "$recording" "$work/registration.yaml" --samples quasi_static --fit-delay
 rostest --results-filename=recorded_load_1.xml "$source/test/ros/contact_replay.test" bag:="$work/load_1.bag" \
   scene:="$scene" registration:="$work/registration.yaml" name:=recorded_load_1

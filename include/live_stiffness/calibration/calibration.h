@@ -22,12 +22,13 @@
 
 namespace live_stiffness {
 
-// How the force sensor sits on the tip: its axes F turned about z of T, its origin on that axis, and the sense of
-// what it reports.
+// How the force sensor sits on the tip: its axes F turned about z of T, its origin on that axis, the sense of what it
+// reports, and which of its channels count.
 struct ForceSensorMount {
   double azimuth = 0.0;  // rad
   double height = 0.0;   // of its origin above T along z of T, m
   double sign = 1.0;     // 1: it reports what acts on the robot; -1: what the robot exerts
+  Wrench gains = Wrench::Ones();  // of its channels [f; m], own axes; 0: that channel is left out
   // Dead wrench at T in base axes of a reading [f; m] (its own axes and origin), the tip oriented as R_BT.
   Wrench atTip(const Wrench& reading, const Matrix3& R_BT) const;
 };

@@ -31,8 +31,12 @@ struct ContactScore {
   double peak_compliant = 0.0, peak_compliant_truth = 0.0;  // the same of the compliant components, N
   double seen = 0.0;           // share of samples with contact, of those that have been pushed by kFirm for kSettle
   double longest_false = 0.0;  // longest contact with an estimate above kFalse, nothing having touched for kSettle, s
+  // By which the estimate trails the truth, s: where the cross-correlation of the compliant components is largest,
+  // between plus and minus kSettle in steps of 10 ms; and that correlation, -1 to 1. Both zero if either force is zero.
+  double delay = 0.0, correlation = 0.0;
 
-  std::string text() const;  // one line for people
+  std::string text() const;   // one line for people
+  std::string table() const;  // CSV: a line "quantity,value" for each of the above, SI, unit in the name
 };
 
 // samples: in order of time. All zero for none.

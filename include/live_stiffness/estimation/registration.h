@@ -8,8 +8,10 @@
 namespace live_stiffness {
 
 struct Registration {
+  static constexpr double kLargestDelay = 1.0;  // s, either way
   Pose X_AB;  // base plate B in the tracker frame A, m
   Pose X_TS;  // tracker sensor S on the tip: offset from T in axes of T (m), and its constant rotation
+  double tracker_delay = 0.0;  // s by which the tracker's poses are late against the pressures; see tracker_delay.h
 
   // Pose of the sensor in A for a tip pose in B, and the way back.
   Pose sensorPose(const Pose& X_BT) const { return X_AB * X_BT * X_TS; }
@@ -19,7 +21,8 @@ struct Registration {
 // Registration files (YAML):
 //   base_in_tracker: {position_m: [x, y, z], quaternion_wxyz: [w, x, y, z]}    # X_AB
 //   sensor_on_tip: {position_m: [x, y, z], quaternion_wxyz: [w, x, y, z]}      # X_TS
-// All keys are required; quaternions are normalised; their norm must be 1e-3 to 1e3.
+//   tracker_delay_s: 0.0                                                       # -1 to 1; may be left out
+// The poses are required; quaternions are normalised; their norm must be 1e-3 to 1e3.
 // Both throw ConfigurationError with every fault (key, value, legal range, line).
 Registration loadRegistrationFile(const std::string& path);
 Registration parseRegistration(const std::string& yaml, const std::string& name);

@@ -15,7 +15,7 @@ class SceneCreep {
   // Effective pressures (Pa, one per chamber) at `time` (s) of pressures measured then. The first call settles the
   // creep, and so does one that goes back in time by more than a second (a clock set anew); one that goes back by less
   // counts as no time at all.
-  Pressures update(PressuresRef pressures, double time);
+  const Pressures& update(PressuresRef pressures, double time);
 
  private:
   double share_;

@@ -6,6 +6,7 @@
 
 #include "live_stiffness/analysis/ellipsoid.h"
 #include "live_stiffness/compliance/stiffness_model.h"
+#include "live_stiffness/estimation/scene_creep.h"
 
 namespace live_stiffness {
 
@@ -16,7 +17,8 @@ struct EstimatorOptions {
 
 // Everything known about the robot at one set of pressures.
 struct Estimate {
-  Pressures pressures;                  // gauge, Pa, one per chamber
+  Pressures pressures;                  // measured, gauge, Pa, one per chamber
+  Pressures effective;                  // those that the solution is of: after the scene's creep, if it has any
   Wrench tip_wrench = Wrench::Zero();   // dead wrench at T, base axes
   StiffnessSolution solution;
   Matrix6 stiffness = Matrix6::Zero();  // inverse of solution.compliance
@@ -37,7 +39,10 @@ class StiffnessEstimator {
   // Throws ConfigurationError on bad options or scene.
   StiffnessEstimator(Scene scene, const ModelOptions& model_options, EstimatorOptions options);
 
-  // New pressures: solves if they moved by more than the threshold since the last solve, or if there was none.
+  // New pressures at `time` (s): solves if what they come to after creep moved by more than the threshold since the last
+  // solve, or if there was none. The first ones count as having been there for long.
+  Outcome setPressures(PressuresRef pressures, double time);
+  // The same without a clock: the robot has settled under these pressures.
   Outcome setPressures(PressuresRef pressures);
   // New tip wrench (base axes): solves if it differs from the one of the last solve and pressures are known.
   Outcome setTipWrench(const Wrench& tip_wrench);
@@ -58,10 +63,13 @@ class StiffnessEstimator {
   std::vector<Station> sampleBackbone(int per_segment) const;
 
  private:
+  Outcome solveIfMoved();
+
   StiffnessModel model_;
   EstimatorOptions options_;
   StiffnessWorkspace workspace_;
-  Pressures newest_pressures_, solved_pressures_;
+  SceneCreep creep_;
+  Pressures newest_pressures_, newest_effective_, solved_effective_;
   Wrench newest_wrench_ = Wrench::Zero(), solved_wrench_ = Wrench::Zero();
   std::vector<Station> of_segment_;  // scratch
   SolveStatus status_;

@@ -10,8 +10,7 @@
 #include <string>
 
 #include "live_stiffness/estimation/creep.h"
-#include "live_stiffness/estimation/scaled_model.h"
-#include "live_stiffness/estimation/tip_wrench_options.h"
+#include "live_stiffness/estimation/tip_wrench_filter.h"
 
 namespace live_stiffness {
 
@@ -44,11 +43,13 @@ const char* codeName(TipWrenchCode code);  // "ok", "invalid_input", "time_backw
 
 class TipWrenchEstimator {
  public:
-  static constexpr int kMaxIterations = 8;        // of a measurement update
-  static constexpr double kRestartAfter = 1.0;    // s
+  static constexpr int kMaxIterations = TipWrenchFilter::kMaxIterations;
+  static constexpr double kRestartAfter = 1.0;  // s
 
   // Throws ConfigurationError (all faults) on bad options or scene. Creep is that of the first segment.
   TipWrenchEstimator(Scene scene, const ModelOptions& model_options, const TipWrenchOptions& options);
+  TipWrenchEstimator(const TipWrenchEstimator&) = delete;  // its filter refers to its options
+  TipWrenchEstimator& operator=(const TipWrenchEstimator&) = delete;
 
   // A sample: gauge pressures (Pa, one per chamber), measured tip pose (m; through the registration) and time (s,
   // increasing). True if estimate() is of this sample, outliers included; else see code(). Never throws. Bounded work:
@@ -67,46 +68,22 @@ class TipWrenchEstimator {
   TipWrenchCode code() const { return code_; }                       // of the newest call
   const SolveStatus& status() const { return status_; }              // of the newest solve
   std::string statusText() const;                                    // "" when ok, else the reason and the way out
-  const StiffnessModel& model() const { return model_.model(); }     // at the current scale
+  const StiffnessModel& model() const { return filter_.model(); }    // at the current scale
 
  private:
-  static constexpr int kMaxStates = 13;
-  using State = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxStates, 1>;
-  using StateMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxStates, kMaxStates>;
-  using Design = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, kMaxStates>;
-  struct Prediction {
-    State x;
-    StateMatrix P;
-  };
-  struct Correction {
-    Prediction posterior;
-    StiffnessSolution solution;
-    double innovation = 0.0;  // standard deviations
-    int iterations = 0;
-  };
-
-  int scaleIndex() const { return options_.components; }
-  int biasIndex() const { return options_.components + 1; }
   bool accept(PressuresRef pressures, double time);
-  void begin();
   bool step(PressuresRef pressures, const Pose* measured, double time);
-  Prediction predictState(double elapsed, double pressure_change, bool contact) const;
-  bool solveAt(const State& x, StiffnessSolution& solution);
-  bool correct(const Pose& measured, const Prediction& prior, bool learn_scale, Correction& result);
   bool isOutlier(const Pose& measured, double innovation);
-  Pose withModelError(const Pose& X_BT, const State& x) const;
+  bool fail(const TipWrenchFilter::Belief& prior);
+  void updateContact(double elapsed);
   void publish(const StiffnessSolution& solution, double time);
-  Wrench wrenchOf(const State& x) const;
 
-  TipWrenchOptions options_;
-  ScaledModel model_;
+  const TipWrenchOptions options_;
+  TipWrenchFilter filter_;
   CreepFilter creep_;
   ContactDetector contact_;
   Wrench known_ = Wrench::Zero();
-
-  State x_;
-  StateMatrix P_;
-  Pressures pressures_, effective_;  // of the last sample, Pa: as given, and after creep
+  Pressures pressures_;              // of the last sample, as given, Pa
   double time_ = 0.0;                // of the last sample, s
   bool started_ = false, has_estimate_ = false;
   int outliers_ = 0;                 // in a row that agree with one another

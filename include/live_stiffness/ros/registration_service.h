@@ -23,10 +23,10 @@ class RegistrationService {
                       OnApply on_apply);
   RegistrationService(const RegistrationService&) = delete;  // callbacks refer to it
 
-  // As those of RegistrationBuffer.
+  // As those of RegistrationBuffer. time: s, on the clock of the pressures.
   void addPressures(PressuresRef pressures, const ros::Time& stamp) { buffer_.addPressures(pressures, stamp.toSec()); }
-  void addPose(const Pose& X_AS, const Wrench& tip_wrench, bool in_contact, const ros::Time& stamp) {
-    buffer_.addPose(X_AS, tip_wrench, in_contact, stamp.toSec());
+  void addPose(const Pose& X_AS, const Wrench& tip_wrench, bool in_contact, double time) {
+    buffer_.addPose(X_AS, tip_wrench, in_contact, time);
   }
 
   // Always true; a request that cannot be fulfilled has success = false.

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "live_stiffness/estimation/motion_history.h"
 #include "live_stiffness/ros/contact_output.h"
 #include "live_stiffness/ros/markers.h"
 #include "live_stiffness/ros/node_parameters.h"
@@ -44,6 +45,7 @@ class StiffnessNode {
   ros::NodeHandle node_, private_node_;
   NodeParameters parameters_;
   StiffnessEstimator estimator_;
+  MotionHistory history_;
   PoseOutput pose_output_;
   MarkerStyle marker_style_;
   ros::Publisher estimate_publisher_, backbone_publisher_, marker_publisher_, error_publisher_;

@@ -60,7 +60,7 @@ class TipHandle {
   std::optional<Pose> dragged_;  // where the handle was left, base axes; none: it follows the tip
   Wrench wrench_ = Wrench::Zero();  // asked about, kDeflectionUnderWrench
   struct Asked {
-    Pressures pressures;
+    Pressures effective;
     Wrench tip_wrench;
     Pose X_BH;
   };

@@ -1,0 +1,34 @@
+#pragma once
+// The recent past of pressures and predicted tip, for a tracker that is late: it sees how the robot stood then.
+
+#include <deque>
+
+#include "live_stiffness/lie/se3.h"
+
+namespace live_stiffness {
+
+struct Moment {
+  double time = 0.0;    // s
+  Pressures pressures;  // gauge, Pa, one per chamber
+  Pose X_BT;            // predicted tip, m
+};
+
+class MotionHistory {
+ public:
+  static constexpr double kCapacity = 2.0;  // s of the past
+  static constexpr size_t kMost = 4000;     // moments kept: the newest ones
+
+  // time: s. A moment that goes back in time by more than a second (a clock set anew) begins the history anew; one that
+  // goes back by less is left out.
+  void add(const Moment& moment);
+  void clear() { moments_.clear(); }
+  bool empty() const { return moments_.empty(); }
+
+  // Interpolated; at the nearest end outside. The history must not be empty.
+  Moment at(double time) const;
+
+ private:
+  std::deque<Moment> moments_;  // in order of time
+};
+
+}  // namespace live_stiffness

@@ -1,0 +1,41 @@
+#include "force_sensor_options.h"
+
+#include <algorithm>
+
+#include "live_stiffness/checks.h"
+
+namespace po = boost::program_options;
+
+namespace live_stiffness {
+namespace {
+
+const std::vector<std::string> kChannels = {"fx", "fy", "fz", "mx", "my", "mz"};
+
+}  // namespace
+
+void ForceSensorOptions::addTo(po::options_description& options) {
+  options.add_options()
+    ("force-sensor-azimuth-deg", po::value(&azimuth_deg_)->default_value(0.0), "turn of the force sensor about z of T")
+    ("force-sensor-height-m", po::value(&height_)->default_value(0.0), "its origin above T")
+    ("force-sensor-sign", po::value(&sign_)->default_value(1.0), "1: reports what acts on the robot; -1: the opposite")
+    ("force-sensor-channels", po::value(&channels_)->multitoken(),
+     "its channels that count, of fx fy fz mx my mz in its own axes (all); others are taken for zero");
+}
+
+ForceSensorMount ForceSensorOptions::mount() const {
+  FaultList faults("force sensor");
+  faults.check("force-sensor-azimuth-deg", azimuth_deg_, Range::finite());
+  faults.check("force-sensor-height-m", height_, Range::finite());
+  if (sign_ != 1.0 && sign_ != -1.0) faults.add("force-sensor-sign = " + numberText(sign_) + ": must be 1 or -1");
+  ForceSensorMount mount{radians(azimuth_deg_), height_, sign_};
+  if (!channels_.empty()) mount.gains.setZero();
+  for (const std::string& channel : channels_) {
+    const auto at = std::find(kChannels.begin(), kChannels.end(), channel);
+    if (at == kChannels.end()) faults.add("force-sensor-channels '" + channel + "': must be among fx fy fz mx my mz");
+    else mount.gains[at - kChannels.begin()] = 1.0;
+  }
+  faults.throwIfAny();
+  return mount;
+}
+
+}  // namespace live_stiffness

@@ -1,0 +1,23 @@
+#pragma once
+// Command line options that say how the force sensor of a recording sits on the tip.
+
+#include <boost/program_options.hpp>
+#include <string>
+#include <vector>
+
+#include "live_stiffness/calibration/calibration.h"
+
+namespace live_stiffness {
+
+class ForceSensorOptions {
+ public:
+  void addTo(boost::program_options::options_description& options);
+  // Throws ConfigurationError with every value that is out of range.
+  ForceSensorMount mount() const;
+
+ private:
+  double azimuth_deg_ = 0.0, height_ = 0.0, sign_ = 1.0;
+  std::vector<std::string> channels_;
+};
+
+}  // namespace live_stiffness
