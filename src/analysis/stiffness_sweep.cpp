@@ -1,13 +1,12 @@
 #include "live_stiffness/analysis/stiffness_sweep.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/parallel_loop.h"
 #include "live_stiffness/analysis/eigenscrews.h"
 
 namespace live_stiffness {
@@ -55,10 +54,9 @@ void StiffnessSweep::run(const Sink& sink, int threads, long block) const {
   for (long first = 0; first < plan_.rows(); first += block) {
     rows.resize(std::min(block, plan_.rows() - first));
     arena.execute([&] {
-      tbb::parallel_for(tbb::blocked_range<long>(0, static_cast<long>(rows.size()), 64), [&](const auto& range) {
+      parallelLoop(static_cast<long>(rows.size()), 64, [&](long begin, long end) {
         Worker& worker = workers.local();
-        for (long i = range.begin(); i != range.end(); ++i)
-          rows[i] = solve(first + i, worker.workspace, worker.chambers);
+        for (long i = begin; i != end; ++i) rows[i] = solve(first + i, worker.workspace, worker.chambers);
       });
       sink(first, rows);  // here, so that it keeps to the threads, too
     });

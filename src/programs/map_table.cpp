@@ -1,11 +1,11 @@
 #include "map_table.h"
 
-#include <tbb/parallel_for.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "analysis/parallel_loop.h"
 
 namespace live_stiffness {
 namespace {
@@ -77,25 +77,31 @@ MapTable::~MapTable() {
   if (npy_ && npy_ != stdout) std::fclose(npy_);
 }
 
-void MapTable::write(long first, const std::vector<SweepRow>& rows) {
-  constexpr long kPart = 512;
-  std::vector<std::string> texts((rows.size() + kPart - 1) / kPart);
-  tbb::parallel_for(size_t{0}, texts.size(), [&](size_t part) {
-    std::string& text = texts[part];
-    Pressures chambers(plan_.channels().chamberCount());
-    double values[kValues];
-    for (size_t i = part * kPart; i < std::min(rows.size(), (part + 1) * kPart); ++i) {
-      plan_.chamberPressures(first + static_cast<long>(i), chambers);
-      for (int k = 0; k < chambers.size(); ++k) append(text, chambers[k]), text += ',';
-      text += codeName(rows[i].code);
-      if (rows[i].code == SolveCode::kOk) {
-        valuesOf(rows[i], values);
-        for (double value : values) text += ',', append(text, value);
-      } else {
-        text.append(kValues, ',');
-      }
-      text += '\n';
+std::string MapTable::textOf(long first, const std::vector<SweepRow>& rows, size_t begin, size_t end) const {
+  std::string text;
+  Pressures chambers(plan_.channels().chamberCount());
+  double values[kValues];
+  for (size_t i = begin; i != end; ++i) {
+    plan_.chamberPressures(first + static_cast<long>(i), chambers);
+    for (int k = 0; k < chambers.size(); ++k) append(text, chambers[k]), text += ',';
+    text += codeName(rows[i].code);
+    if (rows[i].code == SolveCode::kOk) {
+      valuesOf(rows[i], values);
+      for (double value : values) text += ',', append(text, value);
+    } else {
+      text.append(kValues, ',');
     }
+    text += '\n';
+  }
+  return text;
+}
+
+void MapTable::write(long first, const std::vector<SweepRow>& rows) {
+  constexpr size_t kPart = 512;
+  std::vector<std::string> texts((rows.size() + kPart - 1) / kPart);
+  parallelLoop(static_cast<long>(texts.size()), 1, [&](long begin, long end) {
+    for (size_t part = begin; part != static_cast<size_t>(end); ++part)
+      texts[part] = textOf(first, rows, part * kPart, std::min(rows.size(), (part + 1) * kPart));
   });
   for (const std::string& text : texts) std::fwrite(text.data(), 1, text.size(), csv_);
   if (npy_) writeArray(first, rows);

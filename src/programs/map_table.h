@@ -26,6 +26,8 @@ class MapTable {
   void close();
 
  private:
+  // Lines of the rows from begin to end, of which row 0 is number `first` of the plan.
+  std::string textOf(long first, const std::vector<SweepRow>& rows, size_t begin, size_t end) const;
   void writeArray(long first, const std::vector<SweepRow>& rows);
 
   const PressurePlan& plan_;

@@ -19,7 +19,7 @@ topic_tools::ShapeShifter onTheWire(const std::uint8_t* data, size_t size) {
   shape.morph(ros::message_traits::MD5Sum<Message>::value(), ros::message_traits::DataType<Message>::value(),
               ros::message_traits::Definition<Message>::value(), "");
   ros::serialization::IStream in(const_cast<std::uint8_t*>(data), size);
-  shape.read(in);
+  if (size > 0) shape.read(in);  // of nothing, topic_tools copies zero bytes to a null pointer; unread is empty, too
   return shape;
 }
 
