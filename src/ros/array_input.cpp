@@ -4,26 +4,30 @@ namespace live_stiffness {
 
 using diagnostic_msgs::DiagnosticStatus;
 
-ArrayInput::ArrayInput(ros::NodeHandle node, Settings settings, Read read, OnValues on_values, OnFault on_fault)
+ArrayInput::ArrayInput(ros::NodeHandle node, Settings settings, Subscribe subscribe, OnValues on_values, OnFault on_fault)
     : node_(std::move(node)),
       settings_(std::move(settings)),
-      read_(std::move(read)),
+      subscribe_(std::move(subscribe)),
       on_values_(std::move(on_values)),
       on_fault_(std::move(on_fault)),
       watch_(settings_.topic) {
-  if (read_) subscribe();
+  if (subscribe_) this->subscribe();
 }
 
 void ArrayInput::subscribe() {
   subscriber_.shutdown();  // first, else the new one shares its connections and with them the type
-  subscriber_ = node_.subscribe(settings_.topic, 10, &ArrayInput::onMessage, this);
+  subscriber_ = subscribe_(node_, settings_.topic,
+                           [this](const Reading<Eigen::VectorXd>& reading, const std::string& publisher) {
+                             take(reading, publisher);
+                           });
 }
 
 void ArrayInput::tend() {
-  if (read_ && isStale() && subscriber_.getNumPublishers() == 0) subscribe();
+  if (subscribe_ && isStale() && subscriber_.getNumPublishers() == 0) subscribe();
 }
 
-void ArrayInput::take(const Reading<Eigen::VectorXd>& reading) {
+void ArrayInput::take(const Reading<Eigen::VectorXd>& reading, const std::string& publisher) {
+  if (reading.sequence) watch_.number(publisher, *reading.sequence);
   std::string fault = reading.fault;
   if (fault.empty() && reading.value.size() != settings_.count)
     fault = std::to_string(reading.value.size()) + " " + settings_.counted + ": must be " +
@@ -42,6 +46,8 @@ void ArrayInput::take(const Reading<Eigen::VectorXd>& reading) {
 bool ArrayInput::isStale() const { return watch_.age(ros::Time::now()) > settings_.timeout; }
 
 void ArrayInput::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const long lost = watch_.lost() - lost_before_;
+  lost_before_ = watch_.lost();
   if (!watch_.currentFault().empty())
     status.summary(DiagnosticStatus::ERROR, watch_.currentFault());
   else if (!watch_.everAccepted())
@@ -51,6 +57,8 @@ void ArrayInput::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
                     watch_.age(ros::Time::now()));
   else if (watch_.foreignStamps() > 0)
     status.summary(DiagnosticStatus::WARN, "stamps are not in ROS time; the time of arrival is used");
+  else if (lost > 0)
+    status.summaryf(DiagnosticStatus::WARN, "%ld messages lost since the last report: they come faster than they are taken", lost);
   else
     status.summary(DiagnosticStatus::OK, "ok");
   watch_.report(status);

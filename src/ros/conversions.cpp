@@ -50,16 +50,23 @@ std::string pressureFault(double value, const PressureFormat& format) {
   return "";
 }
 
-// Numbers of a stamped message with a `field` for them, or of a bare array.
+// Numbers of a stamped message with a `field` for them.
+template <class Stamped, class Array>
+Reading<Eigen::VectorXd> readStamped(const Stamped& message, Array Stamped::*field) {
+  Reading<Eigen::VectorXd> reading;
+  reading.stamp = message.header.stamp;
+  reading.sequence = message.header.seq;
+  reading.value = toVectorXd(message.*field);
+  return reading;
+}
+
+// The same, or of a bare array.
 template <class Stamped, class Array>
 Reading<Eigen::VectorXd> readArray(const topic_tools::ShapeShifter& message, Array Stamped::*field) {
   Reading<Eigen::VectorXd> reading;
   const std::string type = message.getDataType(), own_type = ros::message_traits::DataType<Stamped>::value();
   if (type == own_type) {
-    if (const auto typed = decode<Stamped>(message, reading)) {
-      reading.stamp = typed->header.stamp;
-      reading.value = toVectorXd((*typed).*field);
-    }
+    if (const auto typed = decode<Stamped>(message, reading)) return readStamped(*typed, field);
   } else if (type == "std_msgs/Float64MultiArray") {
     if (const auto typed = decode<std_msgs::Float64MultiArray_<Short>>(message, reading))
       reading.value = toVectorXd(typed->data);
@@ -134,8 +141,9 @@ double pascalsPerUnit(const std::string& unit) {
   return 0.0;
 }
 
-Reading<Pressures> readPressures(const topic_tools::ShapeShifter& message, const PressureFormat& format) {
-  Reading<Pressures> reading = readArray(message, &ChamberPressures_<Short>::pressure);
+namespace {
+
+Reading<Pressures> gaugePressures(Reading<Pressures> reading, const PressureFormat& format) {
   for (int k = 0; k < reading.value.size() && reading.ok(); ++k) {
     const std::string fault = pressureFault(reading.value[k], format);
     if (!fault.empty()) reading.fault = "pressure of channel " + std::to_string(k + 1) + " " + fault;
@@ -144,14 +152,31 @@ Reading<Pressures> readPressures(const topic_tools::ShapeShifter& message, const
   return reading;
 }
 
-Reading<Eigen::VectorXd> readRodLengths(const topic_tools::ShapeShifter& message, double unit) {
-  Reading<Eigen::VectorXd> reading = readArray(message, &RodLengths_<Short>::length);
+Reading<Eigen::VectorXd> metres(Reading<Eigen::VectorXd> reading, double unit) {
   for (int i = 0; i < reading.value.size() && reading.ok(); ++i)
     if (!std::isfinite(reading.value[i]))
       reading.fault =
           "length of rod " + std::to_string(i + 1) + " is " + numberText(reading.value[i]) + ": must be finite";
   reading.value *= unit;
   return reading;
+}
+
+}  // namespace
+
+Reading<Pressures> readPressures(const topic_tools::ShapeShifter& message, const PressureFormat& format) {
+  return gaugePressures(readArray(message, &ChamberPressures_<Short>::pressure), format);
+}
+
+Reading<Pressures> readPressures(const ChamberPressures& message, const PressureFormat& format) {
+  return gaugePressures(readStamped(message, &ChamberPressures::pressure), format);
+}
+
+Reading<Eigen::VectorXd> readRodLengths(const topic_tools::ShapeShifter& message, double unit) {
+  return metres(readArray(message, &RodLengths_<Short>::length), unit);
+}
+
+Reading<Eigen::VectorXd> readRodLengths(const RodLengths& message, double unit) {
+  return metres(readStamped(message, &RodLengths::length), unit);
 }
 
 Reading<double> readPressure(const sensor_msgs::FluidPressure& message, const PressureFormat& format) {
@@ -167,9 +192,7 @@ Reading<TrackedPose> readPose(const topic_tools::ShapeShifter& message, double p
   Reading<TrackedPose> reading;
   const std::string type = message.getDataType();
   if (type == "geometry_msgs/PoseStamped") {
-    if (const auto typed = decode<geometry_msgs::PoseStamped>(message, reading))
-      return checkedPose(typed->header.stamp, typed->header.frame_id, typed->pose.position, typed->pose.orientation,
-                         position_unit);
+    if (const auto typed = decode<geometry_msgs::PoseStamped>(message, reading)) return readPose(*typed, position_unit);
   } else if (type == "geometry_msgs/PoseWithCovarianceStamped") {
     if (const auto typed = decode<geometry_msgs::PoseWithCovarianceStamped>(message, reading))
       return checkedPose(typed->header.stamp, typed->header.frame_id, typed->pose.pose.position,
@@ -182,6 +205,11 @@ Reading<TrackedPose> readPose(const topic_tools::ShapeShifter& message, double p
                     "geometry_msgs/PoseWithCovarianceStamped or geometry_msgs/TransformStamped";
   }
   return reading;
+}
+
+Reading<TrackedPose> readPose(const geometry_msgs::PoseStamped& message, double position_unit) {
+  return checkedPose(message.header.stamp, message.header.frame_id, message.pose.position, message.pose.orientation,
+                     position_unit);
 }
 
 Reading<TrackedPose> readPose(const geometry_msgs::TransformStamped& message, double position_unit) {

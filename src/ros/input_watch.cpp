@@ -48,6 +48,14 @@ ros::Time InputWatch::stampFor(const ros::Time& stamp, const ros::Time& now) {
   return now;
 }
 
+void InputWatch::number(const std::string& publisher, uint32_t sequence) {
+  constexpr uint32_t kRenumbered = 100000;  // more at once is no loss
+  const uint32_t step = sequence - sequence_;
+  if (publisher == publisher_ && sequence > sequence_ && step < kRenumbered) lost_ += step - 1;
+  publisher_ = publisher;
+  sequence_ = sequence;
+}
+
 double InputWatch::age(const ros::Time& now) const {
   return accepted_ > 0 ? (now - last_accepted_).toSec() : 1e9;
 }
@@ -56,6 +64,7 @@ void InputWatch::report(diagnostic_updater::DiagnosticStatusWrapper& status) con
   status.add("rate (Hz)", rate_);
   status.add("accepted", accepted_);
   status.add("rejected", rejected_);
+  status.add("lost", lost_);
 }
 
 void InputWatch::restart() {

@@ -2,6 +2,8 @@
 
 #include <ros/console.h>
 
+#include <cmath>
+
 #include "live_stiffness/rod/scene_file.h"
 #include "live_stiffness/ros/contact_parameters.h"
 #include "live_stiffness/ros/parameter_reader.h"
@@ -20,8 +22,13 @@ void readModel(ParameterReader& read, NodeParameters& parameters, FaultList& fau
       read.number("pressure_step_pa", parameters.model.pressure_step, {kMinStep, kMaxStep});
   parameters.model.accuracy = read.number("accuracy", parameters.model.accuracy, {1e-13, 1e-2});
   parameters.estimator.update_threshold =
-      read.number("update_threshold_pa", parameters.estimator.update_threshold, Range::nonnegative());
+      read.number("update_threshold_pa", parameters.estimator.update_threshold, {0.0, 1e8});
   parameters.heartbeat = read.number("heartbeat_hz", parameters.heartbeat, {0.1, 1000.0});
+  const double priority = read.number("realtime_priority", 0.0, {0.0, 99.0});
+  if (priority != std::floor(priority))
+    faults.add("~realtime_priority = " + numberText(priority) + ": must be a whole number");
+  parameters.realtime_priority = static_cast<int>(priority);
+  parameters.lock_memory = read.boolean("lock_memory", parameters.lock_memory);
 }
 
 void readPressureInput(ParameterReader& read, NodeParameters& parameters, FaultList& faults) {
@@ -56,13 +63,13 @@ void readDisplay(ParameterReader& read, NodeParameters& parameters, FaultList& f
   readFrames(read, "tip_frame", "tip", parameters.frames, faults);
   parameters.estimator.fractions =
       read.numbers("ellipsoid_fractions", parameters.estimator.fractions, {0.0, 1.0});
-  parameters.ellipsoid_scale = read.number("ellipsoid_scale_m_per_m_n", parameters.ellipsoid_scale, Range::positive());
+  parameters.ellipsoid_scale = read.number("ellipsoid_scale_m_per_m_n", parameters.ellipsoid_scale, {1e-6, 1e6});
   parameters.contact_arrow_scale =
-      read.number("contact_arrow_n_per_m", parameters.contact_arrow_scale, Range::positive());
+      read.number("contact_arrow_n_per_m", parameters.contact_arrow_scale, {1e-6, 1e6});
   parameters.marker_rate = read.number("marker_rate_hz", parameters.marker_rate, {0.1, 100.0});
   parameters.show_eigenscrews = read.boolean("show_eigenscrews", parameters.show_eigenscrews);
   parameters.eigenscrew_length =
-      read.number("eigenscrew_length_m", parameters.eigenscrew_length, Range::positive());
+      read.number("eigenscrew_length_m", parameters.eigenscrew_length, {1e-4, 100.0});
   TipHandleOptions& handle = parameters.tip_handle;
   handle.enabled = read.boolean("tip_handle", handle.enabled);
   handle.force_per_m = read.number("tip_handle_force_n_per_m", handle.force_per_m, Range::positive());

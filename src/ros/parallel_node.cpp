@@ -15,7 +15,8 @@ ParallelNode::ParallelNode(const ros::NodeHandle& node, const ros::NodeHandle& p
       length_input_(
           node,
           {"rod_lengths", "rod lengths", "rod lengths", "", parameters_.scene.rodCount(), parameters_.length_timeout},
-          [this](const topic_tools::ShapeShifter& message) { return readRodLengths(message, parameters_.length_unit); },
+          ArrayInput::subscribeTo<RodLengths>(
+              [this](const auto& message) { return readRodLengths(message, parameters_.length_unit); }),
           [this](const Eigen::VectorXd& lengths, const ros::Time& stamp) { onLengths(lengths, stamp); },
           [this](const std::string& fault) { input_fault_ = fault; }),
       wrench_input_(

@@ -16,10 +16,11 @@ ArrayInput::Settings settingsOf(const NodeParameters& parameters, int channel_co
 }
 
 // Nothing when each channel has a topic of its own.
-ArrayInput::Read readerOf(const NodeParameters& parameters) {
+ArrayInput::Subscribe subscriptionOf(const NodeParameters& parameters) {
   if (!parameters.pressure_topics.empty()) return nullptr;
   const PressureFormat format = parameters.pressure_format;
-  return [format](const topic_tools::ShapeShifter& message) { return readPressures(message, format); };
+  return ArrayInput::subscribeTo<ChamberPressures>(
+      [format](const auto& message) { return readPressures(message, format); });
 }
 
 }  // namespace
@@ -29,7 +30,7 @@ PressureInput::PressureInput(ros::NodeHandle node, const NodeParameters& paramet
     : parameters_(parameters),
       channel_map_(makeChannelMap(parameters)),
       input_(
-          node, settingsOf(parameters, channel_map_.channelCount()), readerOf(parameters),
+          node, settingsOf(parameters, channel_map_.channelCount()), subscriptionOf(parameters),
           [this, on_pressures = std::move(on_pressures)](const Eigen::VectorXd& channels, const ros::Time& stamp) {
             on_pressures(channel_map_.expand(channels), stamp);
           },
@@ -42,6 +43,11 @@ PressureInput::PressureInput(ros::NodeHandle node, const NodeParameters& paramet
         [this, channel](const sensor_msgs::FluidPressure::ConstPtr& message) { onChannel(message, channel); };
     subscribers_.push_back(node.subscribe<sensor_msgs::FluidPressure>(topics[channel], 10, callback));
   }
+}
+
+void PressureInput::adapt() {
+  channel_map_ = makeChannelMap(parameters_);
+  input_.expect(channel_map_.channelCount());
 }
 
 // A channel that is silent or faulty makes the pressures as a whole stale.
@@ -66,7 +72,7 @@ void PressureInput::onChannel(const sensor_msgs::FluidPressure::ConstPtr& messag
     heard_[channel] = ros::Time();
     all.fault = parameters_.pressure_topics[channel] + ": " + reading.fault;
   }
-  input_.take(all);
+  input_.take(all, "");
 }
 
 }  // namespace live_stiffness

@@ -4,13 +4,21 @@
 
 namespace live_stiffness {
 
-RegistrationService::RegistrationService(ros::NodeHandle private_node, const StiffnessModel& model,
+RegistrationService::RegistrationService(ros::NodeHandle private_node, std::shared_ptr<const StiffnessModel> model,
                                          const NodeParameters& parameters, OnApply on_apply)
     : parameters_(parameters),
       on_apply_(std::move(on_apply)),
-      buffer_(model, parameters.registration_buffer, parameters.pressure_timeout),
       server_(private_node.advertiseService("register", &RegistrationService::answer, this)) {
+  restart(std::move(model));
   sendTransform(parameters_.registration);
+}
+
+void RegistrationService::restart(std::shared_ptr<const StiffnessModel> model) {
+  auto buffer =
+      std::make_unique<RegistrationBuffer>(*model, parameters_.registration_buffer, parameters_.pressure_timeout);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  buffer_ = std::move(buffer);
+  model_ = std::move(model);
 }
 
 void RegistrationService::sendTransform(const Registration& registration) {
@@ -46,7 +54,14 @@ bool RegistrationService::answer(Register::Request& request, Register::Response&
   window.duration = request.duration == 0.0 ? parameters_.registration_buffer : request.duration;
   window.quasi_static_only = request.quasi_static_only;
   window.leave_out_contact = request.leave_out_contact;
-  LiveRegistration result = buffer_.fit(window);
+  std::shared_ptr<const StiffnessModel> model;  // kept while it is in use
+  std::unique_ptr<const RegistrationBuffer> past;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    model = model_;
+    past = std::make_unique<const RegistrationBuffer>(*buffer_);
+  }
+  LiveRegistration result = past->fit(window);
   if (!result.fault.empty()) {
     response.message = result.fault;
     return true;

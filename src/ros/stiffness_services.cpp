@@ -45,9 +45,9 @@ std::string joined(const std::vector<std::string>& faults) {
 
 }  // namespace
 
-StiffnessServices::StiffnessServices(ros::NodeHandle private_node, const StiffnessModel& model, FrameNames frames,
+StiffnessServices::StiffnessServices(ros::NodeHandle private_node, FrameNames frames,
                                      AskNewest newest)
-    : model_(model), frames_(std::move(frames)), newest_(std::move(newest)), workspace_(model.makeWorkspace()) {
+    : frames_(std::move(frames)), newest_(std::move(newest)) {
   servers_ = {
       private_node.advertiseService("predict_deflection", &StiffnessServices::predictDeflection, this),
       private_node.advertiseService("compliance_at", &StiffnessServices::complianceAt, this),
@@ -56,38 +56,41 @@ StiffnessServices::StiffnessServices(ros::NodeHandle private_node, const Stiffne
 
 bool StiffnessServices::predictDeflection(PredictDeflection::Request& request, PredictDeflection::Response& response) {
   const NewestEstimate newest = newest_();
+  solver_.follow(newest.model);
   if (!begin(newest, frames_.base, response)) return true;
   const Estimate& estimate = *newest.estimate;
   const Reading<Wrench> wrench = readWrench(request.wrench, frames_, &estimate.solution.X_BT);
   if (!wrench.ok()) return refuse(wrench.fault, response);
   const DeflectionCheck check =
-      checkDeflection(model_, estimate.effective, estimate.tip_wrench, wrench.value, workspace_);
-  if (check.undeflected_ok && !isSameEquilibrium(check.undeflected, estimate.solution.X_BT, model_))
+      checkDeflection(solver_.model(), estimate.effective, estimate.tip_wrench, wrench.value, solver_.workspace());
+  if (check.undeflected_ok && !isSameEquilibrium(check.undeflected, estimate.solution.X_BT, solver_.model()))
     return refuse(kOtherShape, response);
   if (check.undeflected_ok && !check.predicted.twist.allFinite())
     return refuse("wrench of " + numberText(wrench.value.norm()) + " N: the deflection must be finite", response);
   fillDeflection(check, response);
   if (!check.status.ok())
-    return refuse((check.undeflected_ok ? "under the wrench: " : "") + model_.describe(check.status), response);
+    return refuse((check.undeflected_ok ? "under the wrench: " : "") + solver_.model().describe(check.status), response);
   return accept(response);
 }
 
 bool StiffnessServices::complianceAt(ComplianceAt::Request& request, ComplianceAt::Response& response) {
   const NewestEstimate newest = newest_();
+  solver_.follow(newest.model);
   if (!begin(newest, frames_.base, response)) return true;
   FaultList faults("compliance_at");
-  faults.check("segment", request.segment, {0.0, model_.scene().segmentCount() - 1.0});
+  faults.check("segment", request.segment, {0.0, solver_.model().scene().segmentCount() - 1.0});
   faults.check("fraction", request.fraction, {0.0, 1.0});
   if (!faults.empty()) return refuse(joined(faults.faults()), response);
   const Estimate& estimate = *newest.estimate;
-  workspace_.reset();
-  const StiffnessSolution solution = model_.solve(estimate.effective, estimate.tip_wrench, workspace_);
-  if (!solution.status.ok()) return refuse(model_.describe(solution.status), response);
-  if (!isSameEquilibrium(solution.X_BT, estimate.solution.X_BT, model_)) return refuse(kOtherShape, response);
-  const GeneralisedCompliance tangent(model_, workspace_, estimate.tip_wrench, {{request.segment, request.fraction}});
+  solver_.workspace().reset();
+  const StiffnessSolution solution = solver_.model().solve(estimate.effective, estimate.tip_wrench, solver_.workspace());
+  if (!solution.status.ok()) return refuse(solver_.model().describe(solution.status), response);
+  if (!isSameEquilibrium(solution.X_BT, estimate.solution.X_BT, solver_.model())) return refuse(kOtherShape, response);
+  const GeneralisedCompliance tangent(solver_.model(), solver_.workspace(), estimate.tip_wrench,
+                                      {{request.segment, request.fraction}});
   const Matrix6 C = tangent.between(0, 0);
   if (!tangent.ok() || !C.allFinite()) return refuse("no tangent compliance: at the brink of buckling", response);
-  const Station station = model_.station(workspace_, request.segment, request.fraction);
+  const Station station = solver_.model().station(solver_.workspace(), request.segment, request.fraction);
   response.pose = toPose(station.X_BS);
   response.stretch = station.stretch;
   copyRowByRow(C, response.compliance);
@@ -98,6 +101,7 @@ bool StiffnessServices::complianceAt(ComplianceAt::Request& request, ComplianceA
 bool StiffnessServices::directionalStiffness(DirectionalStiffness::Request& request,
                                              DirectionalStiffness::Response& response) {
   const NewestEstimate newest = newest_();
+  solver_.follow(newest.model);
   if (!begin(newest, frames_.base, response)) return true;
   const Estimate& estimate = *newest.estimate;
   const Reading<Matrix3> axes = readAxes(request.frame_id, frames_, &estimate.solution.X_BT);

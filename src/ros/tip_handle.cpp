@@ -59,14 +59,12 @@ InteractiveMarkerControl axisControl(const Vector3& axis, uint8_t mode, const st
 
 constexpr char TipHandle::kName[];
 
-TipHandle::TipHandle(const ros::NodeHandle& private_node, const StiffnessModel& model, const MarkerStyle& style,
+TipHandle::TipHandle(const ros::NodeHandle& private_node, const MarkerStyle& style,
                      const TipHandleOptions& options, ros::Publisher markers, AskNewest newest)
-    : model_(model),
-      style_(style),
+    : style_(style),
       options_(options),
       markers_(std::move(markers)),
       newest_(std::move(newest)),
-      workspace_(model.makeWorkspace()),
       server_(private_node.resolveName("tip_marker")) {
   fillMenu();
 }
@@ -102,7 +100,7 @@ void TipHandle::insertMarker(const Pose& X_BT) {
   marker.header.frame_id = style_.frame;  // and no stamp: so rviz answers in this frame
   marker.name = kName;
   marker.description = titleOf(question_);
-  marker.scale = static_cast<float>(0.3 * model_.scene().length());
+  marker.scale = static_cast<float>(0.3 * solver_.model().scene().length());
   marker.pose = toPose(X_BT);
   const Vector3 axes[] = {Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ()};
   for (int k = 0; k < 3; ++k) {
@@ -148,6 +146,7 @@ void TipHandle::update() {
   const NewestEstimate newest = newest_();
   if (newest.estimate == nullptr) return;
   const Estimate& estimate = *newest.estimate;
+  if (solver_.follow(newest.model)) letGo(), is_inserted_ = false;
   if (!is_inserted_) insertMarker(estimate.solution.X_BT);
   if (!dragged_) server_.setPose(kName, toPose(estimate.solution.X_BT));
   server_.applyChanges();
@@ -172,11 +171,12 @@ Ghost TipHandle::answer(const Estimate& estimate) {
 Ghost TipHandle::answerForce(const Estimate& estimate) {
   HoldGoal goal{dragged_->p, std::nullopt};
   if (question_ == Question::kWrenchAtPose) goal.orientation = dragged_->R;
-  const HoldingWrench found = findHoldingWrench(model_, estimate.effective, estimate.tip_wrench, goal, workspace_);
+  const HoldingWrench found =
+      findHoldingWrench(solver_.model(), estimate.effective, estimate.tip_wrench, goal, solver_.workspace());
   Ghost ghost;
   if (!found.before.status.ok()) {
-    ghost.text = "no ghost: " + model_.describe(found.before.status);
-  } else if (!isSameEquilibrium(found.before.X_BT, estimate.solution.X_BT, model_)) {
+    ghost.text = "no ghost: " + solver_.model().describe(found.before.status);
+  } else if (!isSameEquilibrium(found.before.X_BT, estimate.solution.X_BT, solver_.model())) {
     ghost.text = kOtherShape;
   } else if (!found.reached) {
     ghost.text = "no stable equilibrium there;\nthe tip comes to " + numberText(1e3 * found.miss.position) +
@@ -192,11 +192,12 @@ Ghost TipHandle::answerForce(const Estimate& estimate) {
 }
 
 Ghost TipHandle::answerDeflection(const Estimate& estimate) {
-  const DeflectionCheck check = checkDeflection(model_, estimate.effective, estimate.tip_wrench, wrench_, workspace_);
+  const DeflectionCheck check =
+      checkDeflection(solver_.model(), estimate.effective, estimate.tip_wrench, wrench_, solver_.workspace());
   Ghost ghost;
   if (!check.undeflected_ok || !check.status.ok()) {
-    ghost.text = wrenchText(wrench_) + "\nno ghost: " + model_.describe(check.status);
-  } else if (!isSameEquilibrium(check.undeflected, estimate.solution.X_BT, model_)) {
+    ghost.text = wrenchText(wrench_) + "\nno ghost: " + solver_.model().describe(check.status);
+  } else if (!isSameEquilibrium(check.undeflected, estimate.solution.X_BT, solver_.model())) {
     ghost.text = kOtherShape;
   } else {
     ghost.X_BT = check.exact;
@@ -208,7 +209,7 @@ Ghost TipHandle::answerDeflection(const Estimate& estimate) {
 }
 
 void TipHandle::addShape(Ghost& ghost) const {
-  for (const Station& station : sampleBackbone(model_, workspace_, kSections)) ghost.shape.push_back(station.X_BS);
+  for (const Station& station : sampleBackbone(solver_.model(), solver_.workspace(), kSections)) ghost.shape.push_back(station.X_BS);
 }
 
 }  // namespace live_stiffness

@@ -1,5 +1,7 @@
 #include "live_stiffness/ros/tracker_input.h"
 
+#include "live_stiffness/ros/any_subscriber.h"
+
 namespace live_stiffness {
 namespace {
 
@@ -13,7 +15,7 @@ constexpr double kPlausibleReach = 5.0;  // m; a position beyond is in millimetr
 TrackerInput::TrackerInput(ros::NodeHandle node, const NodeParameters& parameters, OnTip on_tip)
     : node_(node), parameters_(parameters), on_tip_(std::move(on_tip)), watch_("aurora_pose") {
   if (parameters_.tracker_tf_frame.empty()) {
-    subscriber_ = node.subscribe("aurora_pose", 10, &TrackerInput::onMessage, this);
+    subscribe();
   } else {
     tf_listener_ = std::make_unique<tf2_ros::TransformListener>(tf_buffer_, node);
     tf_timer_ = node.createTimer(ros::Duration(1.0 / kTfPollRate), &TrackerInput::onTfPoll, this);
@@ -23,11 +25,14 @@ TrackerInput::TrackerInput(ros::NodeHandle node, const NodeParameters& parameter
 void TrackerInput::tend() {
   if (!parameters_.tracker_tf_frame.empty() || freshTip() || subscriber_.getNumPublishers() > 0) return;
   subscriber_.shutdown();  // first, else the new one shares its connections and with them the type
-  subscriber_ = node_.subscribe("aurora_pose", 10, &TrackerInput::onMessage, this);
+  subscribe();
 }
 
-void TrackerInput::onMessage(const topic_tools::ShapeShifter::ConstPtr& message) {
-  take(readPose(*message, parameters_.position_unit));
+void TrackerInput::subscribe() {
+  const auto on_any = [this](const auto& message, const std::string&) {
+    take(readPose(message, parameters_.position_unit));
+  };
+  subscriber_ = subscribeAny<geometry_msgs::PoseStamped>(node_, "aurora_pose", 10, on_any, on_any);
 }
 
 void TrackerInput::onTfPoll(const ros::TimerEvent&) {

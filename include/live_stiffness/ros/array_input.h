@@ -8,6 +8,7 @@
 #include <functional>
 #include <string>
 
+#include "live_stiffness/ros/any_subscriber.h"
 #include "live_stiffness/ros/conversions.h"
 #include "live_stiffness/ros/input_watch.h"
 
@@ -23,16 +24,23 @@ class ArrayInput {
     int count = 0;
     double timeout = 0.5;     // s
   };
-  using Read = std::function<Reading<Eigen::VectorXd>(const topic_tools::ShapeShifter& message)>;
+  using Take = std::function<void(const Reading<Eigen::VectorXd>& reading, const std::string& publisher)>;
+  using Subscribe = std::function<ros::Subscriber(const ros::NodeHandle& node, const std::string& topic, const Take& take)>;
+  // Subscribes to messages of type Own or any other that read(message) takes.
+  template <class Own, class Read>
+  static Subscribe subscribeTo(Read read);
   using OnValues = std::function<void(const Eigen::VectorXd& values, const ros::Time& stamp)>;
   using OnFault = std::function<void(const std::string& fault)>;
 
-  // Calls on_values with each usable array, and on_fault with the reason for each that is not. Without `read` nothing
-  // is subscribed to, and arrays come through take() alone.
-  ArrayInput(ros::NodeHandle node, Settings settings, Read read, OnValues on_values, OnFault on_fault);
+  // Calls on_values with each usable array, and on_fault with the reason for each that is not. Without `subscribe`
+  // nothing is subscribed to, and arrays come through take() alone.
+  ArrayInput(ros::NodeHandle node, Settings settings, Subscribe subscribe, OnValues on_values, OnFault on_fault);
   ArrayInput(const ArrayInput&) = delete;  // callbacks refer to it
 
-  void take(const Reading<Eigen::VectorXd>& reading);
+  // publisher: its name.
+  void take(const Reading<Eigen::VectorXd>& reading, const std::string& publisher);
+  // From now on there must be so many.
+  void expect(int count) { settings_.count = count; }
   // A solve found that the newest values cannot be used after all.
   void reject(const std::string& fault) { watch_.reject(fault); }
   bool isStale() const;
@@ -41,16 +49,28 @@ class ArrayInput {
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
  private:
+  static constexpr int kQueue = 100;  // enough for a tenth of a second of 1 kHz
+
   void subscribe();
-  void onMessage(const topic_tools::ShapeShifter::ConstPtr& message) { take(read_(*message)); }
 
   ros::NodeHandle node_;
   Settings settings_;
-  Read read_;
+  Subscribe subscribe_;
   OnValues on_values_;
   OnFault on_fault_;
   InputWatch watch_;
+  long lost_before_ = 0;  // as of the last diagnosis
   ros::Subscriber subscriber_;
 };
+
+template <class Own, class Read>
+ArrayInput::Subscribe ArrayInput::subscribeTo(Read read) {
+  return [read](const ros::NodeHandle& node, const std::string& topic, const Take& take) {
+    const auto on_any = [read, take](const auto& message, const std::string& publisher) {
+      take(read(message), publisher);
+    };
+    return subscribeAny<Own>(node, topic, kQueue, on_any, on_any);
+  };
+}
 
 }  // namespace live_stiffness

@@ -5,6 +5,7 @@
 #include <live_stiffness/TipContact.h>
 #include <ros/node_handle.h>
 
+#include <memory>
 #include <string>
 
 #include "live_stiffness/estimation/tip_wrench_estimator.h"
@@ -22,7 +23,9 @@ class ContactOutput {
   // model is given; measured_X_BT: nullptr if the tracker has lost its sensor, so that it is predicted only.
   void update(PressuresRef pressures, const Wrench& known, const Pose* measured_X_BT, const ros::Time& stamp);
   // Begins anew, as after another registration.
-  void reset() { estimator_.reset(); }
+  void reset() { estimator_->reset(); }
+  // Another scene or other options.
+  void adopt(std::unique_ptr<TipWrenchEstimator> estimator) { estimator_ = std::move(estimator); }
 
   // False too when the newest estimate is older than pose_timeout.
   bool inContact() const;
@@ -35,7 +38,7 @@ class ContactOutput {
   double forceDeviation() const;
 
   const NodeParameters& parameters_;
-  TipWrenchEstimator estimator_;
+  std::unique_ptr<TipWrenchEstimator> estimator_;
   ros::Time updated_;  // when the newest estimate was made
   std::string fault_;  // of the newest pose; empty: none
   ros::Publisher wrench_publisher_, contact_publisher_;

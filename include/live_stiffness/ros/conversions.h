@@ -8,6 +8,7 @@
 #include <live_stiffness/PlatformEstimate.h>
 #include <live_stiffness/PredictDeflection.h>
 #include <live_stiffness/Register.h>
+#include <live_stiffness/RodLengths.h>
 #include <live_stiffness/StiffnessEstimate.h>
 #include <live_stiffness/TipContact.h>
 #include <live_stiffness/TrackingError.h>
@@ -15,6 +16,7 @@
 #include <sensor_msgs/FluidPressure.h>
 #include <topic_tools/shape_shifter.h>
 
+#include <optional>
 #include <string>
 
 #include "live_stiffness/analysis/deflection.h"
@@ -32,6 +34,7 @@ struct Reading {
   ros::Time stamp;  // zero when the message has none
   Value value;
   std::string fault;  // empty: value holds
+  std::optional<uint32_t> sequence = {};  // that the publisher gave the message, if it numbers them
 
   bool ok() const { return fault.empty(); }
 };
@@ -51,9 +54,11 @@ double pascalsPerUnit(const std::string& unit);
 // Gauge pressures (Pa) of all channels from ChamberPressures, std_msgs/Float64MultiArray or Float32MultiArray.
 // Faults: another type, a value that is not finite, a negative absolute pressure.
 Reading<Pressures> readPressures(const topic_tools::ShapeShifter& message, const PressureFormat& format);
+Reading<Pressures> readPressures(const ChamberPressures& message, const PressureFormat& format);
 // Rod lengths (m) from RodLengths or an array as above; unit: m per unit of the message. Faults: another type, a value
 // that is not finite.
 Reading<Eigen::VectorXd> readRodLengths(const topic_tools::ShapeShifter& message, double unit);
+Reading<Eigen::VectorXd> readRodLengths(const RodLengths& message, double unit);
 // Gauge pressure (Pa) of one channel.
 Reading<double> readPressure(const sensor_msgs::FluidPressure& message, const PressureFormat& format);
 
@@ -65,6 +70,7 @@ struct TrackedPose {
 // From PoseStamped, PoseWithCovarianceStamped or TransformStamped; position_unit: m per unit of the message.
 // Faults: another type, values that are not finite, a zero or far from unit quaternion.
 Reading<TrackedPose> readPose(const topic_tools::ShapeShifter& message, double position_unit);
+Reading<TrackedPose> readPose(const geometry_msgs::PoseStamped& message, double position_unit);
 Reading<TrackedPose> readPose(const geometry_msgs::TransformStamped& message, double position_unit);
 
 // Faults: as above.

@@ -22,6 +22,11 @@ class InputWatch {
   // ten seconds from `now`); the latter is counted and logged once a minute.
   ros::Time stampFor(const ros::Time& stamp, const ros::Time& now);
 
+  // A message of a publisher that numbers them: counts those that were lost between it and the one before, in the
+  // publisher's queue or in ours.
+  void number(const std::string& publisher, uint32_t sequence);
+  long lost() const { return lost_; }
+
   bool everAccepted() const { return accepted_ > 0; }
   // Seconds since the last good message; a very large number before the first. Negative after time jumped back.
   double age(const ros::Time& now) const;
@@ -39,7 +44,9 @@ class InputWatch {
   ros::Time last_accepted_;
   ros::WallTime fault_logged_, stamp_logged_;
   double rate_ = 0.0;  // of good messages, 1/s, smoothed
-  long accepted_ = 0, rejected_ = 0, foreign_stamps_ = 0;
+  long accepted_ = 0, rejected_ = 0, foreign_stamps_ = 0, lost_ = 0;
+  std::string publisher_;   // of the newest message
+  uint32_t sequence_ = 0;   // that it gave it
 };
 
 }  // namespace live_stiffness

@@ -21,6 +21,8 @@ struct NodeParameters {
   ModelOptions model;
   EstimatorOptions estimator;
   double heartbeat = 1.0;  // Hz
+  int realtime_priority = 0;  // of SCHED_FIFO for the thread that estimates, 1 to 99; 0: like any thread
+  bool lock_memory = false;   // so that no page of the process is swapped out
 
   PressureFormat pressure_format;
   std::vector<std::string> pressure_topics;  // one sensor_msgs/FluidPressure topic per channel; empty: one topic

@@ -23,6 +23,8 @@ class PressureInput {
   bool isStale() const { return input_.isStale(); }
   void tend() { input_.tend(); }
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) { input_.diagnose(status); }
+  // The parameters have another scene or channel_of_chamber.
+  void adapt();
   int channelCount() const { return channel_map_.channelCount(); }
 
  private:

@@ -6,6 +6,8 @@
 #include <tf2_ros/static_transform_broadcaster.h>
 
 #include <functional>
+#include <memory>
+#include <mutex>
 #include <string>
 
 #include "live_stiffness/estimation/registration_buffer.h"
@@ -18,16 +20,23 @@ class RegistrationService {
   using OnApply = std::function<void(const Registration& registration)>;
 
   // Advertises ~register and publishes the transform of the parameters' registration. Calls on_apply with one that is
-  // to be used from then on. model and parameters must outlive this.
-  RegistrationService(ros::NodeHandle private_node, const StiffnessModel& model, const NodeParameters& parameters,
-                      OnApply on_apply);
+  // to be used from then on. parameters must outlive this. May be answered in another thread than that which adds.
+  RegistrationService(ros::NodeHandle private_node, std::shared_ptr<const StiffnessModel> model,
+                      const NodeParameters& parameters, OnApply on_apply);
   RegistrationService(const RegistrationService&) = delete;  // callbacks refer to it
 
   // As those of RegistrationBuffer. time: s, on the clock of the pressures.
-  void addPressures(PressuresRef pressures, const ros::Time& stamp) { buffer_.addPressures(pressures, stamp.toSec()); }
-  void addPose(const Pose& X_AS, const Wrench& tip_wrench, bool in_contact, double time) {
-    buffer_.addPose(X_AS, tip_wrench, in_contact, time);
+  void addPressures(PressuresRef pressures, const ros::Time& stamp) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    buffer_->addPressures(pressures, stamp.toSec());
   }
+  void addPose(const Pose& X_AS, const Wrench& tip_wrench, bool in_contact, double time) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    buffer_->addPose(X_AS, tip_wrench, in_contact, time);
+  }
+
+  // Forgets the past; the model may be another one from now on.
+  void restart(std::shared_ptr<const StiffnessModel> model);
 
   // Always true; a request that cannot be fulfilled has success = false.
   bool answer(Register::Request& request, Register::Response& response);
@@ -39,7 +48,9 @@ class RegistrationService {
 
   const NodeParameters& parameters_;
   OnApply on_apply_;
-  RegistrationBuffer buffer_;
+  std::mutex mutex_;  // of these two
+  std::shared_ptr<const StiffnessModel> model_;
+  std::unique_ptr<RegistrationBuffer> buffer_;
   tf2_ros::StaticTransformBroadcaster broadcaster_;
   ros::ServiceServer server_;
 };

@@ -17,8 +17,8 @@ namespace live_stiffness {
 
 class StiffnessServices {
  public:
-  // Advertises them. model must outlive this.
-  StiffnessServices(ros::NodeHandle private_node, const StiffnessModel& model, FrameNames frames, AskNewest newest);
+  // Advertises them.
+  StiffnessServices(ros::NodeHandle private_node, FrameNames frames, AskNewest newest);
   StiffnessServices(const StiffnessServices&) = delete;  // callbacks refer to it
 
   // The answers; always true, since a question that cannot be answered has success = false.
@@ -27,10 +27,9 @@ class StiffnessServices {
   bool directionalStiffness(DirectionalStiffness::Request& request, DirectionalStiffness::Response& response);
 
  private:
-  const StiffnessModel& model_;
   FrameNames frames_;
   AskNewest newest_;
-  StiffnessWorkspace workspace_;
+  OwnSolver solver_;
   std::vector<ros::ServiceServer> servers_;
 };
 

@@ -29,8 +29,8 @@ class TipHandle {
   enum class Question { kForceAtPosition, kWrenchAtPose, kDeflectionUnderWrench };
   static constexpr char kName[] = "tip";  // of the interactive marker
 
-  // Serves the interactive marker on ~tip_marker, and publishes the ghost on `markers`. model must outlive this.
-  TipHandle(const ros::NodeHandle& private_node, const StiffnessModel& model, const MarkerStyle& style,
+  // Serves the interactive marker on ~tip_marker, and publishes the ghost on `markers`.
+  TipHandle(const ros::NodeHandle& private_node, const MarkerStyle& style,
             const TipHandleOptions& options, ros::Publisher markers, AskNewest newest);
   TipHandle(const TipHandle&) = delete;  // callbacks refer to it
 
@@ -50,12 +50,11 @@ class TipHandle {
   Ghost answerDeflection(const Estimate& estimate);
   void addShape(Ghost& ghost) const;
 
-  const StiffnessModel& model_;
   MarkerStyle style_;
   TipHandleOptions options_;
   ros::Publisher markers_;
   AskNewest newest_;
-  StiffnessWorkspace workspace_;
+  OwnSolver solver_;
   Question question_ = Question::kForceAtPosition;
   std::optional<Pose> dragged_;  // where the handle was left, base axes; none: it follows the tip
   Wrench wrench_ = Wrench::Zero();  // asked about, kDeflectionUnderWrench

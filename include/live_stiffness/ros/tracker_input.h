@@ -33,7 +33,7 @@ class TrackerInput {
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
  private:
-  void onMessage(const topic_tools::ShapeShifter::ConstPtr& message);
+  void subscribe();
   void onTfPoll(const ros::TimerEvent&);
   double unchangedFor() const { return (ros::Time::now() - last_change_).toSec(); }  // s
   void take(const Reading<TrackedPose>& reading);

@@ -1,0 +1,23 @@
+// live_stiffness/StiffnessNodelet: stiffness_node in a nodelet manager. Estimates and, from nodelets of the same
+// manager, pressures and poses pass without a copy.
+
+#include <nodelet/nodelet.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include <memory>
+
+#include "live_stiffness/ros/stiffness_node.h"
+
+namespace live_stiffness {
+
+class StiffnessNodelet : public nodelet::Nodelet {
+ private:
+  // A throw here is logged by the manager with its text, and the nodelet is not loaded.
+  void onInit() override { node_ = std::make_unique<StiffnessNode>(getNodeHandle(), getPrivateNodeHandle()); }
+
+  std::unique_ptr<StiffnessNode> node_;
+};
+
+}  // namespace live_stiffness
+
+PLUGINLIB_EXPORT_CLASS(live_stiffness::StiffnessNodelet, nodelet::Nodelet)
