@@ -5,13 +5,14 @@
 #include <boost/program_options.hpp>
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <iostream>
+#include <sstream>
 
 #include "any_recording.h"
 #include "live_stiffness/calibration/calibration.h"
 #include "live_stiffness/estimation/contact_score.h"
 #include "live_stiffness/estimation/tip_wrench_estimator.h"
+#include "live_stiffness/part_file.h"
 #include "live_stiffness/rod/scene_file.h"
 
 namespace po = boost::program_options;
@@ -62,12 +63,7 @@ void run(const std::string& scene_path, const std::string& recording_path, const
   ModelOptions model;
   model.stepping = Stepping::kContinuous;
   TipWrenchEstimator estimator(scene, model, options);
-  std::ofstream file;
-  if (!output.empty()) {
-    file.open(output);
-    if (!file) throw ConfigurationError("output " + output, {"cannot be written: is its folder there?"});
-  }
-  std::ostream& out = output.empty() ? std::cout : file;
+  std::ostringstream out;
   out.precision(6);
   writeHeader(out);
   std::vector<double> microseconds;
@@ -88,6 +84,8 @@ void run(const std::string& scene_path, const std::string& recording_path, const
     scored.push_back({sample.time, linear(*measured), linear(estimate->wrench), 0.5 * (C + C.transpose()),
                       estimate->contact});
   }
+  if (!output.empty()) writeTextFile("output", output, out.str());
+  else if (!(std::cout << out.str() << std::flush)) throw ConfigurationError("standard output", {"cannot be written"});
   if (!scored.empty()) std::cerr << contactScore(scored).text() << "\n";
   std::sort(microseconds.begin(), microseconds.end());
   const auto at = [&](double share) { return microseconds[static_cast<size_t>(share * (microseconds.size() - 1))]; };

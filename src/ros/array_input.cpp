@@ -20,6 +20,7 @@ void ArrayInput::subscribe() {
 }
 
 void ArrayInput::tend() {
+  watch_.notice(ros::Time::now());
   if (read_ && isStale() && subscriber_.getNumPublishers() == 0) subscribe();
 }
 
@@ -34,8 +35,10 @@ void ArrayInput::take(const Reading<Eigen::VectorXd>& reading) {
     return;
   }
   const ros::Time now = ros::Time::now();
+  watch_.notice(now);
+  if (!watch_.arrivesInOrder(reading.stamp)) return;
   const ros::Time stamp = watch_.stampFor(reading.stamp, now);
-  watch_.accept(now);
+  watch_.accept(now, stamp);
   on_values_(reading.value, stamp);
 }
 
@@ -49,8 +52,8 @@ void ArrayInput::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   else if (isStale())
     status.summaryf(DiagnosticStatus::ERROR, "%s are stale: %.1f s old", settings_.noun.c_str(),
                     watch_.age(ros::Time::now()));
-  else if (watch_.foreignStamps() > 0)
-    status.summary(DiagnosticStatus::WARN, "stamps are not in ROS time; the time of arrival is used");
+  else if (!watch_.oddity().empty())
+    status.summary(DiagnosticStatus::WARN, watch_.oddity());
   else
     status.summary(DiagnosticStatus::OK, "ok");
   watch_.report(status);

@@ -48,13 +48,15 @@ StiffnessNode::StiffnessNode(const ros::NodeHandle& node, const ros::NodeHandle&
   diagnostics_.add("Tracker", this, &StiffnessNode::diagnoseTracker);
   diagnostics_.add("Contact", &contact_, &ContactOutput::diagnose);
   diagnostics_.add("Solver", this, &StiffnessNode::diagnoseSolver);
+  diagnostics_.add("Clock", &clock_watch_, &ClockWatch::diagnose);
   if (parameters_.tip_handle.enabled)
     tip_handle_ = std::make_unique<TipHandle>(private_node_, estimator_.model(), marker_style_, parameters_.tip_handle,
                                               marker_publisher_, [this] { return newest(); });
   timers_ = {node_.createTimer(ros::Duration(1.0 / parameters_.heartbeat), &StiffnessNode::onHeartbeat, this),
              node_.createTimer(ros::Duration(1.0 / parameters_.marker_rate), &StiffnessNode::onMarkers, this)};
-  diagnostics_timer_ = node_.createWallTimer(ros::WallDuration(0.2),
-                                             [this](const ros::WallTimerEvent&) { diagnostics_.update(); });
+  // Not update(): it waits for ROS time, which may stand still or jump back.
+  diagnostics_timer_ = node_.createWallTimer(ros::WallDuration(diagnostics_.getPeriod()),
+                                             [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
   ROS_INFO("%s, stepping %s, %d segment(s), %d chamber(s) on %d channel(s)", modelName(parameters_.model).c_str(),
            steppingName(parameters_.model.stepping).c_str(), parameters_.scene.segmentCount(),
            parameters_.scene.chamberCount(), pressure_input_.channelCount());
@@ -97,11 +99,12 @@ void StiffnessNode::onTracked(const Pose& X_AS, const Pose& measured_X_BT, const
   if (estimator_.estimate() == nullptr || isStale()) return;
   const Estimate& estimate = *estimator_.estimate();
   const Twist residual = residualTwist(measured_X_BT, estimate.solution.X_BT);
+  const bool is_lost = tracker_input_.repeatsItself();
+  contact_.update(estimator_.pressures(), estimate.tip_wrench, is_lost ? nullptr : &measured_X_BT, stamp);
+  if (is_lost) return;
   tracking_error_ = linear(residual).norm();
   error_publisher_.publish(
       toTrackingError(measured_X_BT, estimate.solution.X_BT, residual, stamp, parameters_.frames.base));
-  contact_.update(estimator_.pressures(), estimate.tip_wrench, tracker_input_.repeatsItself() ? nullptr : &measured_X_BT,
-                  stamp);
 }
 
 void StiffnessNode::onMarkers(const ros::TimerEvent&) {

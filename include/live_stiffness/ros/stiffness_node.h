@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "live_stiffness/ros/clock_watch.h"
 #include "live_stiffness/ros/contact_output.h"
 #include "live_stiffness/ros/markers.h"
 #include "live_stiffness/ros/node_parameters.h"
@@ -48,6 +49,7 @@ class StiffnessNode {
   MarkerStyle marker_style_;
   ros::Publisher estimate_publisher_, backbone_publisher_, marker_publisher_, error_publisher_;
   ContactOutput contact_;
+  ClockWatch clock_watch_;
   diagnostic_updater::Updater diagnostics_;
 
   ros::Time pressure_stamp_;  // of the newest usable pressures
