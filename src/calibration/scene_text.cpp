@@ -1,11 +1,11 @@
 #include "live_stiffness/calibration/scene_text.h"
 
-#include <fstream>
 #include <iomanip>
 #include <locale>
 #include <sstream>
 
 #include "live_stiffness/checks.h"
+#include "live_stiffness/part_file.h"
 
 namespace live_stiffness {
 namespace {
@@ -86,10 +86,7 @@ std::string sceneText(const Scene& scene, const std::string& comment) {
 }
 
 void saveSceneFile(const std::string& path, const Scene& scene, const std::string& comment) {
-  std::ofstream file(path);
-  file << sceneText(scene, comment);
-  file.close();
-  if (!file) throw ConfigurationError("scene " + path, {"cannot be written: is its folder there?"});
+  writeTextFile("scene", path, sceneText(scene, comment));
 }
 
 }  // namespace live_stiffness

@@ -1,9 +1,9 @@
 #include "live_stiffness/estimation/registration.h"
 
-#include <fstream>
 #include <locale>
 #include <sstream>
 
+#include "live_stiffness/part_file.h"
 #include "live_stiffness/yaml_map.h"
 
 namespace live_stiffness {
@@ -72,10 +72,7 @@ std::string registrationText(const Registration& registration, const std::string
 }
 
 void saveRegistrationFile(const std::string& path, const Registration& registration, const std::string& comment) {
-  std::ofstream file(path);
-  file << registrationText(registration, comment);
-  file.close();
-  if (!file) throw ConfigurationError("registration " + path, {"cannot be written: is its folder there?"});
+  writeTextFile("registration", path, registrationText(registration, comment));
 }
 
 }  // namespace live_stiffness

@@ -2,7 +2,6 @@
 // and to tables of measured compliance. Needs no ROS; built with it, it reads bags too.
 
 #include <boost/program_options.hpp>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -14,6 +13,7 @@
 #include "live_stiffness/calibration/scene_text.h"
 #include "live_stiffness/checks.h"
 #include "live_stiffness/estimation/tracker_delay.h"
+#include "live_stiffness/part_file.h"
 #include "live_stiffness/rod/scene_file.h"
 #include "progress_bar.h"
 
@@ -108,13 +108,6 @@ std::optional<LoadedSamples> loadsNamed(const std::string& name) {
   return std::nullopt;
 }
 
-void write(const std::string& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text;
-  file.close();
-  if (!file) throw ConfigurationError("output " + path, {"cannot be written: is its folder there?"});
-}
-
 ChannelMap channelsFor(const Arguments& a, const std::vector<CalibrationRecording>& recordings, int chambers) {
   if (a.channels > 0) return ChannelMap::even(a.channels, chambers);
   return ChannelMap::even(recordings.empty() ? chambers : recordings.front().recording.channelCount(), chambers);
@@ -196,8 +189,8 @@ int run(const Arguments& a, const std::string& command) {
     registration.tracker_delay = a.tracker_delay;
     saveRegistrationFile(a.registration, registration, header);
   }
-  if (!a.residuals.empty()) write(a.residuals, residualTable(result, recordings));
-  if (!a.rows.empty()) write(a.rows, complianceTableOf(result));
+  if (!a.residuals.empty()) writeTextFile("output", a.residuals, residualTable(result, recordings));
+  if (!a.rows.empty()) writeTextFile("output", a.rows, complianceTableOf(result));
   return result.converged ? kExitOk : kExitNotConverged;
 }
 

@@ -5,8 +5,8 @@
 #include <boost/program_options.hpp>
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <iostream>
+#include <sstream>
 
 #include "any_recording.h"
 #include "force_sensor_options.h"
@@ -14,6 +14,7 @@
 #include "live_stiffness/estimation/contact_score.h"
 #include "live_stiffness/estimation/tracker_delay.h"
 #include "live_stiffness/estimation/tip_wrench_estimator.h"
+#include "live_stiffness/part_file.h"
 #include "live_stiffness/rod/scene_file.h"
 
 namespace po = boost::program_options;
@@ -65,15 +66,7 @@ void run(const std::string& scene_path, const std::string& recording_path, const
   ModelOptions model;
   model.stepping = Stepping::kContinuous;
   TipWrenchEstimator estimator(scene, model, options);
-  std::ofstream file, score_file;
-  const auto open = [](std::ofstream& stream, const std::string& path) {
-    if (path.empty()) return;
-    stream.open(path);
-    if (!stream) throw ConfigurationError("output " + path, {"cannot be written: is its folder there?"});
-  };
-  open(file, output);
-  open(score_file, score_path);
-  std::ostream& out = output.empty() ? std::cout : file;
+  std::ostringstream out;
   out.precision(6);
   writeHeader(out);
   std::vector<double> microseconds;
@@ -94,10 +87,12 @@ void run(const std::string& scene_path, const std::string& recording_path, const
     scored.push_back({sample.time, linear(*measured), linear(estimate->wrench), 0.5 * (C + C.transpose()),
                       estimate->contact});
   }
+  if (!output.empty()) writeTextFile("output", output, out.str());
+  else if (!(std::cout << out.str() << std::flush)) throw ConfigurationError("standard output", {"cannot be written"});
   if (!scored.empty()) {
     const ContactScore score = contactScore(scored);
     std::cerr << score.text() << "\n";
-    score_file << score.table();
+    if (!score_path.empty()) writeTextFile("output", score_path, score.table());
   }
   std::sort(microseconds.begin(), microseconds.end());
   const auto at = [&](double share) { return microseconds[static_cast<size_t>(share * (microseconds.size() - 1))]; };

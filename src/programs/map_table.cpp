@@ -10,9 +10,11 @@
 namespace live_stiffness {
 namespace {
 
-std::FILE* opened(const std::string& path) {
-  std::FILE* file = path == "-" ? stdout : std::fopen(path.c_str(), "wb");
-  if (!file) throw ConfigurationError("output " + path, {"cannot be written: must be in a folder that exists"});
+std::FILE* opened(const std::string& path, std::unique_ptr<PartFile>& part) {
+  if (path == "-") return stdout;
+  part = std::make_unique<PartFile>(path);
+  std::FILE* file = std::fopen(part->writePath().c_str(), "wb");
+  if (!file) throw ConfigurationError("output " + path, {writeFault(path)});
   return file;
 }
 
@@ -46,7 +48,7 @@ void append(std::string& text, double value) {
 MapTable::MapTable(const std::string& csv_path, const std::string& npy_path, const PressurePlan& plan,
                    const StiffnessCriterion& criterion)
     : plan_(plan) {
-  csv_ = opened(csv_path);
+  csv_ = opened(csv_path, csv_part_);
   std::string header, fields;
   for (int k = 0; k < plan.channels().chamberCount(); ++k) {
     header += pressureName(k) + ",";
@@ -60,7 +62,7 @@ MapTable::MapTable(const std::string& csv_path, const std::string& npy_path, con
   }
   std::fprintf(csv_, "%s\n", header.c_str());
   if (npy_path.empty()) return;
-  npy_ = opened(npy_path);
+  npy_ = opened(npy_path, npy_part_);
   // NumPy's format 1.0: magic, version, length of what follows, a Python literal padded to 64 bytes.
   std::string literal =
       "{'descr': [" + fields + "], 'fortran_order': False, 'shape': (" + std::to_string(plan.rows()) + ",), }";
@@ -125,6 +127,8 @@ void MapTable::close() {
   for (std::FILE* file : {csv_, npy_})
     if (file) good = std::fflush(file) == 0 && !std::ferror(file) && good;
   if (!good) throw ConfigurationError("output", {"could not be written in full: is the disk full?"});
+  for (const auto* part : {&csv_part_, &npy_part_})
+    if (*part) (*part)->finish();
 }
 
 }  // namespace live_stiffness

@@ -2,10 +2,12 @@
 // What stiffness_map writes: a CSV, and optionally the same as a NumPy array.
 
 #include <cstdio>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "live_stiffness/analysis/stiffness_sweep.h"
+#include "live_stiffness/part_file.h"
 
 namespace live_stiffness {
 
@@ -22,7 +24,7 @@ class MapTable {
 
   // Rows from `first` on; texts are made on all cores.
   void write(long first, const std::vector<SweepRow>& rows);
-  // Closes the files. Throws ConfigurationError if the disk did not take all.
+  // Gives the files their names; without it none is left. Throws ConfigurationError if the disk did not take all.
   void close();
 
  private:
@@ -31,6 +33,7 @@ class MapTable {
   void writeArray(long first, const std::vector<SweepRow>& rows);
 
   const PressurePlan& plan_;
+  std::unique_ptr<PartFile> csv_part_, npy_part_;  // none: standard output, or not asked for
   std::FILE* csv_ = nullptr;
   std::FILE* npy_ = nullptr;
 };

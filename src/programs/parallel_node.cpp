@@ -2,12 +2,14 @@
 
 #include <ros/ros.h>
 
+#include "live_stiffness/ros/node_process.h"
 #include "live_stiffness/ros/parallel_node.h"
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "parallel_node");
   // Outlive the try block: with the last handle roscpp shuts down, and its log with it.
   ros::NodeHandle handle, private_handle("~");
+  const live_stiffness::NodeProcess process;
   try {
     live_stiffness::ParallelNode node(handle, private_handle);
     ros::spin();

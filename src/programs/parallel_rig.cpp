@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "live_stiffness/parallel/parallel_scene_file.h"
+#include "live_stiffness/ros/node_process.h"
 #include "live_stiffness/ros/parameter_reader.h"
 
 namespace {
@@ -75,6 +76,7 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "parallel_rig");
   // Outlive the try block: with the last handle roscpp shuts down, and its log with it.
   ros::NodeHandle handle, private_handle("~");
+  const NodeProcess process;
   try {
     ParallelRig rig(handle, private_handle);
     ros::spin();

@@ -28,6 +28,7 @@ void writeBag(const Recording& recording, const std::vector<Pressures>& channels
     if (sample.tip_wrench) bag.writeForceTorque(*sample.tip_wrench, stamp);
     progress.update(static_cast<long>(i) + 1);
   }
+  bag.finish();
 }
 
 // Fits where base and sensor are from the whole recording, and says how well the model then agrees.

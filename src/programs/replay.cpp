@@ -4,9 +4,9 @@
 
 #include <boost/program_options.hpp>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 
+#include "live_stiffness/part_file.h"
 #include "live_stiffness/rod/scene_file.h"
 #include "live_stiffness/ros/bag_replay.h"
 #include "progress_bar.h"
@@ -84,8 +84,7 @@ int main(int argc, char** argv) {
     std::cout << "scene: " << scene << "\n\n";
     const std::string text = report.text(bag, accuracy);
     std::cout << text << "\nestimates: " << out << "\n";
-    if (!report_path.empty() && !(std::ofstream(report_path) << text))
-      throw ConfigurationError("report " + report_path, {"cannot be written"});
+    if (!report_path.empty()) writeTextFile("report", report_path, text);
     return 0;
   } catch (const std::exception& error) {
     std::cerr << "replay: " << error.what() << "\nSee replay --help.\n";

@@ -4,6 +4,7 @@
 #include <ros/ros.h>
 
 #include "live_stiffness/ros/conversions.h"
+#include "live_stiffness/ros/node_process.h"
 #include "live_stiffness/ros/rig_bag.h"
 #include "live_stiffness/ros/rig_parameters.h"
 
@@ -58,6 +59,7 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "rig_simulator");
   // Outlive the try block: with the last handle roscpp shuts down, and its log with it.
   ros::NodeHandle handle, private_handle("~");
+  const NodeProcess process;
   try {
     RigSimulator simulator(handle, private_handle);
     ros::spin();

@@ -72,6 +72,7 @@ int main(int argc, char** argv) {
       if (!push_n.empty()) bag.writeForceTorque(sample.sensedContact(), stamp);
       progress.update(i + 1);
     }
+    bag.finish();
     return 0;
   } catch (const std::exception& error) {
     std::cerr << "simulate_bag: " << error.what() << "\nSee simulate_bag --help.\n";

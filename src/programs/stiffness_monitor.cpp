@@ -10,6 +10,7 @@
 #include "live_stiffness/PlatformEstimate.h"
 #include "live_stiffness/StiffnessEstimate.h"
 #include "live_stiffness/TrackingError.h"
+#include "live_stiffness/ros/node_process.h"
 
 namespace {
 
@@ -93,6 +94,7 @@ class Monitor {
 int main(int argc, char** argv) {
   ros::init(argc, argv, "stiffness_monitor");
   Monitor monitor{ros::NodeHandle()};
+  const live_stiffness::NodeProcess process;
   ros::spin();
   return 0;
 }

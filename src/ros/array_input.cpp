@@ -23,6 +23,7 @@ void ArrayInput::subscribe() {
 }
 
 void ArrayInput::tend() {
+  watch_.notice(ros::Time::now());
   if (subscribe_ && isStale() && subscriber_.getNumPublishers() == 0) subscribe();
 }
 
@@ -38,8 +39,10 @@ void ArrayInput::take(const Reading<Eigen::VectorXd>& reading, const std::string
     return;
   }
   const ros::Time now = ros::Time::now();
+  watch_.notice(now);
+  if (!watch_.arrivesInOrder(reading.stamp)) return;
   const ros::Time stamp = watch_.stampFor(reading.stamp, now);
-  watch_.accept(now);
+  watch_.accept(now, stamp);
   on_values_(reading.value, stamp);
 }
 
@@ -55,8 +58,8 @@ void ArrayInput::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   else if (isStale())
     status.summaryf(DiagnosticStatus::ERROR, "%s are stale: %.1f s old", settings_.noun.c_str(),
                     watch_.age(ros::Time::now()));
-  else if (watch_.foreignStamps() > 0)
-    status.summary(DiagnosticStatus::WARN, "stamps are not in ROS time; the time of arrival is used");
+  else if (!watch_.oddity().empty())
+    status.summary(DiagnosticStatus::WARN, watch_.oddity());
   else if (lost > 0)
     status.summaryf(DiagnosticStatus::WARN, "%ld messages lost since the last report: they come faster than they are taken", lost);
   else

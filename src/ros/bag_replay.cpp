@@ -11,6 +11,7 @@
 
 #include "live_stiffness/estimation/motion_history.h"
 #include "live_stiffness/estimation/tip_force.h"
+#include "live_stiffness/ros/output_bag.h"
 
 namespace live_stiffness {
 namespace {
@@ -62,6 +63,7 @@ class Replay {
   Replay(const std::string& out, const Scene& scene, const ModelOptions& model, const ReplayOptions& options)
       : options_(options),
         estimator_(scene, model, options.estimator),
+        bag_(out),
         pressures_(options.pressure_topic),
         poses_(options.pose_topic),
         wrenches_(options.wrench_topic) {
@@ -71,7 +73,6 @@ class Replay {
                                {std::to_string(channels.size()) + " entries: must be one for each of the scene's " +
                                 std::to_string(scene.chamberCount()) + " chambers"});
     if (!channels.empty()) channel_map_ = ChannelMap(channels);
-    bag_.open(out, rosbag::bagmode::Write);
   }
 
   void take(const rosbag::MessageInstance& message) {
@@ -88,6 +89,9 @@ class Replay {
     if (is_pressure) onPressures(readPressures(*any, options_.pressure_format));
     else onPose(readPose(*any, options_.position_unit));
   }
+
+  // All has been replayed: gives the bag its name.
+  void finish() { bag_.finish(); }
 
   ReplayReport report(const ros::Time& begin) {
     ReplayReport report;
@@ -184,7 +188,7 @@ class Replay {
   std::optional<ChannelMap> channel_map_;
   StiffnessEstimator estimator_;
   MotionHistory history_;
-  rosbag::Bag bag_;
+  OutputBag bag_;
   TopicWatch pressures_, poses_, wrenches_;
   ros::Time recorded_, pressure_stamp_, estimate_stamp_;
   bool is_stale_ = true;  // the estimate is not that of the newest pressures
@@ -241,9 +245,10 @@ ReplayReport replayBag(const std::string& bag, const std::string& out, const Sce
     }
     const ros::Time begin = total > 0 ? view.getBeginTime() : ros::Time();
     report = replay.report(begin);
+    if (report.pressures.usable > 0) replay.finish();
     if (total > 0) report.duration = (view.getEndTime() - begin).toSec();
   } catch (const rosbag::BagException& error) {
-    throw ConfigurationError("bag " + bag + " to " + out, {error.what()});
+    throw ConfigurationError("bag " + bag, {std::string("cannot be read: ") + error.what()});
   }
   if (report.pressures.usable == 0)
     throw ConfigurationError("bag " + bag, {"no usable pressures on " + options.pressure_topic +

@@ -7,6 +7,11 @@
 namespace live_stiffness {
 namespace {
 
+constexpr double kForeign = 10.0;     // s behind ROS time; a device's own clock
+constexpr double kFuture = 0.5;       // s ahead of ROS time
+constexpr double kReordered = 1.0;    // s
+constexpr double kJump = 0.5;         // s back; less is a wall clock being corrected
+
 // True, and the clock restarted, if `last` is at least `seconds` ago. Not ROS_ERROR_THROTTLE and its kin: they share
 // one clock between all inputs, and stop when simulated time does.
 bool isDue(ros::WallTime& last, double seconds) {
@@ -18,7 +23,8 @@ bool isDue(ros::WallTime& last, double seconds) {
 
 }  // namespace
 
-void InputWatch::accept(const ros::Time& now) {
+void InputWatch::accept(const ros::Time& now, const ros::Time& stamp) {
+  notice(now);
   const double interval = accepted_ > 0 ? (now - last_accepted_).toSec() : 0.0;
   if (interval > 0.0) {
     const double blend = rate_ > 0.0 ? 0.1 : 1.0;
@@ -26,6 +32,7 @@ void InputWatch::accept(const ros::Time& now) {
     rate_ = 1.0 / smoothed_interval;
   }
   last_accepted_ = now;
+  last_stamp_ = stamp;
   ++accepted_;
   current_fault_.clear();
 }
@@ -37,13 +44,15 @@ void InputWatch::reject(const std::string& fault) {
 }
 
 ros::Time InputWatch::stampFor(const ros::Time& stamp, const ros::Time& now) {
-  constexpr double kForeign = 10.0;  // s
+  foreign_offset_ = 0.0;
   if (stamp.isZero()) return now;
   if (now.isZero()) return stamp;  // simulated time has not begun: the first message overtook /clock
-  if (std::abs((stamp - now).toSec()) <= kForeign) return stamp;
+  const double offset = (stamp - now).toSec();
+  if (offset >= -kForeign && offset <= kFuture) return stamp;
+  foreign_offset_ = offset;
   ++foreign_stamps_;
   if (isDue(stamp_logged_, 60.0))
-    ROS_WARN_STREAM(name_ << ": stamps are " << (stamp - now).toSec()
+    ROS_WARN_STREAM(name_ << ": stamps are " << offset
                           << " s from ROS time (a device's own clock?); using the time of arrival");
   return now;
 }
@@ -56,8 +65,34 @@ void InputWatch::number(const std::string& publisher, uint32_t sequence) {
   sequence_ = sequence;
 }
 
+bool InputWatch::arrivesInOrder(const ros::Time& stamp) {
+  const double step = last_raw_stamp_.isZero() || stamp.isZero() ? 0.0 : (stamp - last_raw_stamp_).toSec();
+  if (step < 0.0 && step >= -kReordered) {
+    ++out_of_order_;
+    overtaken_ = ros::WallTime::now();
+    return false;
+  }
+  last_raw_stamp_ = stamp;
+  return true;
+}
+
+void InputWatch::notice(const ros::Time& now) {
+  if (accepted_ > 0 && (now - last_accepted_).toSec() < -kJump) restart();
+}
+
 double InputWatch::age(const ros::Time& now) const {
-  return accepted_ > 0 ? (now - last_accepted_).toSec() : 1e9;
+  constexpr double kNever = 1e9;
+  if (accepted_ == 0 || (now - last_accepted_).toSec() < -kJump) return kNever;
+  return (now - last_stamp_).toSec();
+}
+
+std::string InputWatch::oddity() const {
+  if (foreign_offset_ != 0.0)
+    return "stamps are not in ROS time, but " + std::to_string(std::abs(foreign_offset_)) + " s " +
+           (foreign_offset_ > 0.0 ? "ahead" : "behind") + "; the time of arrival is used";
+  if (ros::WallTime::now() - overtaken_ < ros::WallDuration(2.0))
+    return "messages arrive out of order: " + std::to_string(out_of_order_) + " left out so far";
+  return "";
 }
 
 void InputWatch::report(diagnostic_updater::DiagnosticStatusWrapper& status) const {
@@ -65,10 +100,11 @@ void InputWatch::report(diagnostic_updater::DiagnosticStatusWrapper& status) con
   status.add("accepted", accepted_);
   status.add("rejected", rejected_);
   status.add("lost", lost_);
+  status.add("out of order", out_of_order_);
 }
 
 void InputWatch::restart() {
-  last_accepted_ = ros::Time();
+  last_accepted_ = last_stamp_ = last_raw_stamp_ = ros::Time();
   accepted_ = 0;
   rate_ = 0.0;
   current_fault_.clear();

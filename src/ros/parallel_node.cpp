@@ -28,10 +28,12 @@ ParallelNode::ParallelNode(const ros::NodeHandle& node, const ros::NodeHandle& p
   diagnostics_.setHardwareID("live_stiffness");
   diagnostics_.add("Rod lengths", &length_input_, &ArrayInput::diagnose);
   diagnostics_.add("Solver", this, &ParallelNode::diagnoseSolver);
+  diagnostics_.add("Clock", &clock_watch_, &ClockWatch::diagnose);
   timers_ = {node_.createTimer(ros::Duration(1.0 / parameters_.heartbeat), &ParallelNode::onHeartbeat, this),
              node_.createTimer(ros::Duration(1.0 / parameters_.marker_rate), &ParallelNode::onMarkers, this)};
-  diagnostics_timer_ = node_.createWallTimer(ros::WallDuration(0.2),
-                                             [this](const ros::WallTimerEvent&) { diagnostics_.update(); });
+  // Not update(): it waits for ROS time, which may stand still or jump back.
+  diagnostics_timer_ = node_.createWallTimer(ros::WallDuration(diagnostics_.getPeriod()),
+                                             [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
   ROS_INFO("%d rods", parameters_.scene.rodCount());
 }
 

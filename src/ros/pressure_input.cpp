@@ -1,6 +1,7 @@
 #include "live_stiffness/ros/pressure_input.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace live_stiffness {
 namespace {
@@ -38,6 +39,7 @@ PressureInput::PressureInput(ros::NodeHandle node, const NodeParameters& paramet
   const std::vector<std::string>& topics = parameters_.pressure_topics;
   channels_.setZero(topics.size());
   heard_.assign(topics.size(), ros::Time());
+  stamps_.assign(topics.size(), ros::Time());
   for (size_t channel = 0; channel < topics.size(); ++channel) {
     const boost::function<void(const sensor_msgs::FluidPressure::ConstPtr&)> callback =
         [this, channel](const sensor_msgs::FluidPressure::ConstPtr& message) { onChannel(message, channel); };
@@ -53,7 +55,7 @@ void PressureInput::adapt() {
 // A channel that is silent or faulty makes the pressures as a whole stale.
 bool PressureInput::allHeard(const ros::Time& now) const {
   return std::all_of(heard_.begin(), heard_.end(), [&](const ros::Time& heard) {
-    return !heard.isZero() && (now - heard).toSec() <= parameters_.pressure_timeout;
+    return !heard.isZero() && std::abs((now - heard).toSec()) <= parameters_.pressure_timeout;
   });
 }
 
@@ -61,12 +63,13 @@ bool PressureInput::allHeard(const ros::Time& now) const {
 void PressureInput::onChannel(const sensor_msgs::FluidPressure::ConstPtr& message, size_t channel) {
   const Reading<double> reading = readPressure(*message, parameters_.pressure_format);
   Reading<Pressures> all;
-  all.stamp = reading.stamp;
   if (reading.ok()) {
     const ros::Time now = ros::Time::now();
     channels_[channel] = reading.value;
     heard_[channel] = now;
     all.value = channels_;
+    all.stamp = stamps_[channel] = reading.stamp;
+    for (const ros::Time& stamp : stamps_) all.stamp = std::max(all.stamp, stamp);
     if (!allHeard(now)) return;
   } else {
     heard_[channel] = ros::Time();

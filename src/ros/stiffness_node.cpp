@@ -153,9 +153,11 @@ void StiffnessNode::onTracked(const Pose& X_AS, const Pose& measured_X_BT, const
   registration_.addPose(X_AS, newest_wrench, contact_.inContact(), time);
   if (!is_known) return;
   const Twist residual = residualTwist(measured_X_BT, then.X_BT);
+  const bool is_lost = tracker_input_.repeatsItself();
+  contact_.update(then.pressures, solved_wrench, is_lost ? nullptr : &measured_X_BT, stamp);
+  if (is_lost) return;
   tracking_error_ = linear(residual).norm();
   error_publisher_.publish(toTrackingError(measured_X_BT, then.X_BT, residual, stamp, parameters_.frames.base));
-  contact_.update(then.pressures, solved_wrench, tracker_input_.repeatsItself() ? nullptr : &measured_X_BT, stamp);
 }
 
 // Solved anew, so that the live lane need not wait while it is sampled.
@@ -216,10 +218,12 @@ void StiffnessNode::addDiagnostics() {
     reportSolver(*estimator_, wrench_input_.fault(), status);
     if (is_paused_) status.summary(diagnostic_msgs::DiagnosticStatus::WARN, newestFault());
   });
+  diagnostics_.add("Clock", &clock_watch_, &ClockWatch::diagnose);
   diagnostics_.add(frequency_);
   diagnostics_.add(time_stamps_);
-  diagnostics_timer_ = node_.createWallTimer(ros::WallDuration(0.2),
-                                             [this](const ros::WallTimerEvent&) { diagnostics_.update(); });
+  // Not update(): it waits for ROS time, which may stand still or jump back.
+  diagnostics_timer_ = node_.createWallTimer(ros::WallDuration(diagnostics_.getPeriod()),
+                                             [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
 }
 
 }  // namespace live_stiffness

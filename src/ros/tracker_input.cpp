@@ -1,5 +1,7 @@
 #include "live_stiffness/ros/tracker_input.h"
 
+#include <algorithm>
+
 #include "live_stiffness/ros/any_subscriber.h"
 
 namespace live_stiffness {
@@ -8,7 +10,7 @@ namespace {
 using diagnostic_msgs::DiagnosticStatus;
 
 constexpr double kTfPollRate = 40.0;     // Hz, an NDI Aurora's
-constexpr double kPlausibleReach = 5.0;  // m; a position beyond is in millimetres
+constexpr double kPlausibleReach = 5.0;  // m from tracker and base; a position beyond is in millimetres
 
 }  // namespace
 
@@ -23,6 +25,7 @@ TrackerInput::TrackerInput(ros::NodeHandle node, const NodeParameters& parameter
 }
 
 void TrackerInput::tend() {
+  watch_.notice(ros::Time::now());
   if (!parameters_.tracker_tf_frame.empty() || freshTip() || subscriber_.getNumPublishers() > 0) return;
   subscriber_.shutdown();  // first, else the new one shares its connections and with them the type
   subscribe();
@@ -53,18 +56,25 @@ void TrackerInput::take(const Reading<TrackedPose>& reading) {
   if (!frame.empty() && frame != parameters_.tracker_frame && frame != parameters_.sensor_frame)
     return watch_.reject("unknown frame " + frame + ": must be " + parameters_.tracker_frame + " or " +
                          parameters_.sensor_frame + "; see ~tracker_frame");
-  const ros::Time now = ros::Time::now();
   const Pose& X_AS = reading.value.pose;
+  const Pose X_BT = parameters_.registration.tipPose(X_AS);
+  if (std::min(X_AS.p.norm(), X_BT.p.norm()) > kPlausibleReach)
+    return watch_.reject("position is " + numberText(X_AS.p.norm()) + " m away: must be within " +
+                         numberText(kPlausibleReach) +
+                         " m of tracker or base; millimetres? (set ~aurora_position_unit: mm)");
+  const ros::Time now = ros::Time::now();
+  watch_.notice(now);
+  if (!watch_.arrivesInOrder(reading.stamp)) return;
   if (!watch_.everAccepted() || X_AS.p != X_AS_.p || X_AS.R != X_AS_.R) last_change_ = now;
   X_AS_ = X_AS;
-  X_BT_ = parameters_.registration.tipPose(X_AS);
+  X_BT_ = X_BT;
   const ros::Time stamp = watch_.stampFor(reading.stamp, now);
-  watch_.accept(now);
+  watch_.accept(now, stamp);
   on_tip_(X_AS, X_BT_, stamp);
 }
 
 std::optional<Pose> TrackerInput::freshTip() const {
-  if (watch_.age(ros::Time::now()) > parameters_.pose_timeout) return std::nullopt;
+  if (watch_.age(ros::Time::now()) > parameters_.pose_timeout || repeatsItself()) return std::nullopt;
   return X_BT_;
 }
 
@@ -78,8 +88,8 @@ void TrackerInput::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
     status.summaryf(DiagnosticStatus::WARN, "tracker pose is stale: %.1f s old", watch_.age(now));
   else if (repeatsItself())
     status.summaryf(DiagnosticStatus::WARN, "tracker repeats the same pose for %.1f s: sensor lost?", unchangedFor());
-  else if (X_AS_.p.norm() > kPlausibleReach)
-    status.summary(DiagnosticStatus::WARN, "position is metres away: millimetres? (set ~aurora_position_unit: mm)");
+  else if (!watch_.oddity().empty())
+    status.summary(DiagnosticStatus::WARN, watch_.oddity());
   else
     status.summary(DiagnosticStatus::OK, "ok");
   watch_.report(status);

@@ -34,5 +34,35 @@ TEST(InputWatch, FaultLastsUntilTheNextGoodMessage) {
   EXPECT_NEAR(watch.age(ros::Time(10.5)), 0.5, 1e-9);
 }
 
+TEST(InputWatch, ReplacesAStampOfTheFutureAndForgetsThatItWasOne) {
+  InputWatch watch("input");
+  const ros::Time now(1000.0);
+  EXPECT_EQ(watch.stampFor(ros::Time(1000.4), now), ros::Time(1000.4));
+  EXPECT_EQ(watch.stampFor(ros::Time(1003.0), now), now);
+  EXPECT_NE(watch.oddity().find("ahead"), std::string::npos) << watch.oddity();
+  watch.stampFor(ros::Time(999.9), now);
+  EXPECT_EQ(watch.oddity(), "");
+}
+
+TEST(InputWatch, LeavesOutWhatWasOvertakenButNotAClockThatWasSet) {
+  InputWatch watch("input");
+  EXPECT_TRUE(watch.arrivesInOrder(ros::Time(1000.0)));
+  EXPECT_FALSE(watch.arrivesInOrder(ros::Time(999.9)));
+  EXPECT_FALSE(watch.oddity().empty());
+  EXPECT_TRUE(watch.arrivesInOrder(ros::Time(1000.0))) << "a stamp that is coarse";
+  EXPECT_TRUE(watch.arrivesInOrder(ros::Time(900.0))) << "a driver that began again";
+  EXPECT_TRUE(watch.arrivesInOrder(ros::Time())) << "no stamp, no order";
+}
+
+TEST(InputWatch, AgeIsThatOfTheStampAndOfNothingAfterTimeJumpedBack) {
+  InputWatch watch("input");
+  watch.accept(ros::Time(1000.0), ros::Time(997.0));
+  EXPECT_NEAR(watch.age(ros::Time(1000.1)), 3.1, 1e-9);
+  EXPECT_GT(watch.age(ros::Time(500.0)), 1e6);
+  watch.notice(ros::Time(500.0));
+  EXPECT_FALSE(watch.everAccepted());
+  EXPECT_GT(watch.age(ros::Time(1000.1)), 1e6) << "not fresh again once time has come round";
+}
+
 }  // namespace
 }  // namespace live_stiffness

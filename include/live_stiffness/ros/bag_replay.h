@@ -53,7 +53,7 @@ struct ReplayReport {
 // Reads `bag` in the order of recording and writes to `out` what the node would have published on
 // /stiffness_node/estimate, /tip_pose and /tracking_error. `progress` is told messages done and in all. Messages that
 // cannot be used are counted and left out. Throws ConfigurationError when a bag cannot be read or written, is the same as
-// the other, the scene or options are bad, or no usable pressures are in it; what was written until then stays.
+// the other, the scene or options are bad, or no usable pressures are in it; then no file is left under the name of `out`.
 ReplayReport replayBag(const std::string& bag, const std::string& out, const Scene& scene, const ModelOptions& model,
                        const ReplayOptions& options, const std::function<void(long, long)>& progress = {});
 

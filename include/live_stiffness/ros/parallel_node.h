@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "live_stiffness/ros/clock_watch.h"
 #include "live_stiffness/ros/array_input.h"
 #include "live_stiffness/ros/parallel_parameters.h"
 #include "live_stiffness/ros/pose_output.h"
@@ -37,6 +38,7 @@ class ParallelNode {
   ParallelEstimator estimator_;
   PoseOutput pose_output_;
   ros::Publisher estimate_publisher_, marker_publisher_;
+  ClockWatch clock_watch_;
   diagnostic_updater::Updater diagnostics_;
   ros::Time length_stamp_;    // of the newest usable lengths
   ros::Time estimate_stamp_;  // of the lengths of the last good estimate

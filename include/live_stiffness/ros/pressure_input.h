@@ -36,6 +36,7 @@ class PressureInput {
   ArrayInput input_;
   Pressures channels_;            // newest of each of pressure_topics
   std::vector<ros::Time> heard_;  // when each of them was last heard to be good; zero: not since its last fault
+  std::vector<ros::Time> stamps_;  // of the newest message of each
   std::vector<ros::Subscriber> subscribers_;  // one for each of them
 };
 

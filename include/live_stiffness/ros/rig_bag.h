@@ -1,11 +1,10 @@
 #pragma once
 // Writes what a rig publishes into a bag: chamber_pressures, aurora_pose and, if there is one, its force sensor.
 
-#include <rosbag/bag.h>
-
 #include <string>
 
 #include "live_stiffness/ros/conversions.h"
+#include "live_stiffness/ros/output_bag.h"
 
 namespace live_stiffness {
 
@@ -14,7 +13,7 @@ constexpr char kForceSensorFrame[] = "tip_force_sensor";
 
 class RigBag {
  public:
-  // Creates the file; throws ConfigurationError with path and reason if that fails. tracker_frame: frame_id of poses.
+  // Creates the file, see OutputBag, which says what is thrown. tracker_frame: frame_id of poses.
   RigBag(const std::string& path, std::string tracker_frame);
 
   // Gauge channel pressures, Pa, on chamber_pressures.
@@ -24,9 +23,11 @@ class RigBag {
   // A wrench in the force sensor's own axes, on tip_force_torque with frame_id kForceSensorFrame. Not on tip_wrench:
   // the node would take it as the wrench at T, and the sensor's axes and sign must be known for that.
   void writeForceTorque(const Wrench& wrench, const ros::Time& stamp);
+  // All has been written. Without it no file is left.
+  void finish() { bag_.finish(); }
 
  private:
-  rosbag::Bag bag_;
+  OutputBag bag_;
   std::string tracker_frame_;
 };
 

@@ -19,6 +19,7 @@
 
 #include "live_stiffness/estimation/motion_history.h"
 #include "live_stiffness/ros/callback_lane.h"
+#include "live_stiffness/ros/clock_watch.h"
 #include "live_stiffness/ros/contact_output.h"
 #include "live_stiffness/ros/markers.h"
 #include "live_stiffness/ros/node_parameters.h"
@@ -82,6 +83,7 @@ class StiffnessNode {
   OwnSolver drawing_;
   ros::Publisher estimate_publisher_, backbone_publisher_, marker_publisher_, error_publisher_;
   ContactOutput contact_;
+  ClockWatch clock_watch_;
   diagnostic_updater::Updater diagnostics_;
   double lowest_rate_, highest_rate_ = 1e5;  // of estimates, Hz
   diagnostic_updater::FrequencyStatus frequency_;

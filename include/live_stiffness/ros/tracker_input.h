@@ -24,7 +24,7 @@ class TrackerInput {
   // Calls on_tip with each usable measurement. parameters must outlive the input.
   TrackerInput(ros::NodeHandle node, const NodeParameters& parameters, OnTip on_tip);
 
-  // The newest measured pose of T in B, if it is not older than pose_timeout.
+  // The newest measured pose of T in B, if it is not older than pose_timeout and the tracker has not lost its sensor.
   std::optional<Pose> freshTip() const;
   // True if the tracker has said the same for longer than pose_timeout: it has lost its sensor.
   bool repeatsItself() const { return unchangedFor() > parameters_.pose_timeout; }

@@ -1,0 +1,45 @@
+#pragma once
+// Registers this process anew when the master was restarted, which roscpp does not.
+//
+// Connections between nodes outlive the master: data go on. But a new master knows nobody, so that nodes that start
+// afterwards find nobody, and its parameter server is empty. This remembers what the old one knew of this process
+// (publications, subscriptions, services, private parameters) and tells the new one. Nodes of others that do not do so
+// stay connected, and are found again when they are restarted.
+
+#include <ros/master.h>
+#include <ros/this_node.h>
+
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <string>
+#include <thread>
+
+namespace live_stiffness {
+
+class MasterWatch {
+ public:
+  // Looks once a second, in a thread of its own: a master on a computer that is off makes one wait.
+  MasterWatch() : thread_([this] { run(); }) {}
+  ~MasterWatch();
+  MasterWatch(const MasterWatch&) = delete;
+
+ private:
+  void run();
+  void look();
+  bool remember();
+  void registerAnew();
+
+  std::string uri_;                                               // of this process
+  std::map<std::string, std::string> publications_, subscriptions_;  // type by topic
+  std::map<std::string, std::string> services_;                   // URI by service
+  XmlRpc::XmlRpcValue parameters_;
+  bool is_away_ = false;
+
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  bool stop_ = false;
+  std::thread thread_;  // last: begins when the rest is there
+};
+
+}  // namespace live_stiffness

@@ -1,0 +1,39 @@
+#include "live_stiffness/ros/output_bag.h"
+
+#include <vector>
+
+#include "live_stiffness/checks.h"
+
+namespace live_stiffness {
+
+OutputBag::OutputBag(const std::string& path) : path_(path), part_(path), bag_(std::make_unique<rosbag::Bag>()) {
+  guard([&] { bag_->open(part_.writePath(), rosbag::bagmode::Write); });
+}
+
+OutputBag::~OutputBag() { abandon(); }
+
+void OutputBag::finish() {
+  guard([&] { bag_->close(); });
+  part_.finish();
+}
+
+// Closes a bag that nobody is to see. Where the disk is full closing throws, and would do so again in rosbag's
+// destructor, which ends the program without a word: such a bag is kept for ever instead.
+void OutputBag::abandon() {
+  static std::vector<rosbag::Bag*> never_closed;
+  if (bag_ == nullptr) return;
+  try {
+    bag_->close();
+  } catch (const std::exception&) {
+    never_closed.push_back(bag_.release());
+  }
+  bag_.reset();
+}
+
+void OutputBag::fail(const std::string& reason) {
+  const std::string why = writeFault(path_) + " (rosbag: " + reason + ")";
+  abandon();
+  throw ConfigurationError("bag " + path_, {why});
+}
+
+}  // namespace live_stiffness

@@ -1,0 +1,105 @@
+#!/usr/bin/env bash
+# Faults of processes, each with real nodes: the master dies and comes back, a publisher is killed and comes back under
+# another name, signals, kill -9 under respawn. BUILD_DIR SOURCE_DIR
+# Times are printed, not asserted: a busy machine has its own.
+set -euo pipefail
+build=$1 source=$2 programs=$1/devel/lib/live_stiffness
+set +u; source "$build/devel/setup.bash"; set -u
+export ROS_HOSTNAME=localhost
+port=11911
+while (: </dev/tcp/127.0.0.1/$port) 2>/dev/null; do port=$((port + 1)); done
+export ROS_MASTER_URI=http://localhost:$port
+work=$(mktemp -d)
+pids=()
+cleanup() {
+  for pid in "${pids[@]}"; do kill "$pid" 2>/dev/null || true; done
+  wait || true
+  rm -rf "$work"
+}
+trap cleanup EXIT
+
+fail() { echo "failed: $1"; tail -n 20 "$work"/*.log; exit 1; }
+now() { date +%s.%N; }
+since() { awk -v a="$1" -v b="$(now)" 'BEGIN { printf "%.2f s", b - a }'; }
+# within SECONDS WHAT COMMAND...: waits until the command succeeds.
+within() {
+  local end=$((SECONDS + $1)) what=$2
+  shift 2
+  until "$@" >/dev/null 2>&1; do [ $SECONDS -lt $end ] || fail "$what"; sleep 0.05; done
+}
+start_master() {
+  rosmaster --core -p $port >>"$work/master.log" 2>&1 &
+  master=$!
+  pids+=("$master")
+  within 20 "no master" rosparam list
+}
+start_rig() {  # NAME
+  "$programs/rig_simulator" "__name:=$1" "_scene_file:=$scene" >>"$work/$1.log" 2>&1 &
+  rig=$!
+  pids+=("$rig")
+}
+scene=$source/config/scenes/paper_one_segment.yaml
+is_fresh() { timeout 10 rostopic echo -n 1 /stiffness_node/estimate/stale | grep -q False; }
+is_stale() { timeout 10 rostopic echo -n 1 /stiffness_node/estimate/stale | grep -q True; }
+
+start_master
+"$programs/stiffness_node" "_scene_file:=$scene" >"$work/node.log" 2>&1 &
+node=$!
+pids+=("$node")
+start_rig rig_a
+within 20 "no fresh estimate" is_fresh
+
+echo "- a publisher is killed and comes back under another name"
+kill -9 $rig
+within 20 "pressures of a publisher that was killed are not stale" is_stale
+start_rig rig_b
+begin=$(now)
+within 20 "the publisher that came back is not heard" is_fresh
+echo "  heard after $(since "$begin")"
+
+echo "- the master is killed and comes back, with nothing on its parameter server"
+kill -9 $master; wait $master 2>/dev/null || true
+within 20 "the node does not say that the master is away" grep -q "does not answer" "$work/node.log"
+start_master
+begin=$(now)
+within 30 "no fresh estimate by way of the new master" is_fresh
+echo "  found after $(since "$begin")"
+within 20 "services are not registered anew" \
+  sh -c "rosservice call /stiffness_node/compliance_at '{segment: 0, fraction: 1.0}' | grep -q 'success: True'"
+within 20 "parameters are not there anew" sh -c "rosparam get /stiffness_node/scene_file | grep -q paper_one_segment"
+rosnode info /stiffness_node | grep -q '/rig_b' || fail "the publisher is not shown: $(rosnode info /stiffness_node)"
+kill -9 $rig
+start_rig rig_c
+within 20 "a publisher that starts under the new master is not heard" is_fresh
+kill -0 $node || fail "the node died"
+
+for signal in INT TERM; do
+  echo "- SIG$signal"
+  begin=$(now)
+  kill -$signal $node
+  status=0; wait $node || status=$?
+  echo "  ended with status $status after $(since "$begin")"
+  [ $status = 0 ] || fail "exit status $status"
+  ! rosnode list | grep -q '^/stiffness_node$' || fail "it is still registered at the master"
+  "$programs/stiffness_node" "_scene_file:=$scene" >"$work/node.log" 2>&1 &
+  node=$!
+  pids+=("$node")
+  within 20 "no fresh estimate" is_fresh
+done
+kill $node $rig; wait $node $rig || true
+
+echo "- kill -9 under respawn"
+roslaunch -p $port "$source/launch/demo.launch" respawn:=true >"$work/roslaunch.log" 2>&1 &
+launch=$!
+pids+=("$launch")
+pid_of() { rosnode info /stiffness_node 2>/dev/null | sed -n 's/^Pid: //p'; }
+within 30 "no fresh estimate" is_fresh
+old=$(pid_of)
+[ -n "$old" ] || fail "no pid of the node"
+kill -9 "$old"
+begin=$(now)
+is_another() { [ -n "$(pid_of)" ] && [ "$(pid_of)" != "$old" ]; }
+within 20 "it does not come back" is_another
+within 20 "it came back without estimates" is_fresh
+echo "  first fresh estimate seen after $(since "$begin"), two command line tools included"
+kill -INT $launch; wait $launch || fail "roslaunch: exit status $?"

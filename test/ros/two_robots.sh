@@ -1,0 +1,75 @@
+#!/usr/bin/env bash
+# two_robots.launch: each robot has topics and frames of its own, and what happens to one leaves the other alone; and
+# roswtf, who looks at all of it, finds nothing of ours wrong. BUILD_DIR SOURCE_DIR
+set -euo pipefail
+build=$1 source=$2 
+set +u; source "$build/devel/setup.bash"; set -u
+export ROS_HOSTNAME=localhost
+port=11911
+while (: </dev/tcp/127.0.0.1/$port) 2>/dev/null; do port=$((port + 1)); done
+export ROS_MASTER_URI=http://localhost:$port
+work=$(mktemp -d)
+pids=()
+cleanup() {
+  for pid in "${pids[@]}"; do kill "$pid" 2>/dev/null || true; done
+  wait || true
+  rm -rf "$work"
+}
+trap cleanup EXIT
+
+fail() { echo "failed: $1"; tail -n 20 "$work"/*.log; exit 1; }
+now() { date +%s.%N; }
+since() { awk -v a="$1" -v b="$(now)" 'BEGIN { printf "%.2f s", b - a }'; }
+# within SECONDS WHAT COMMAND...: waits until the command succeeds.
+within() {
+  local end=$((SECONDS + $1)) what=$2
+  shift 2
+  until "$@" >/dev/null 2>&1; do [ $SECONDS -lt $end ] || fail "$what"; sleep 0.05; done
+}
+echo_one() { timeout 10 rostopic echo -n 1 "$1"; }
+is() { echo_one "/$1/stiffness_node/estimate/stale" | grep -q "$2"; }  # ROBOT True|False
+
+roslaunch -p $port "$source/launch/two_robots.launch" >"$work/roslaunch.log" 2>&1 &
+launch=$!
+pids+=("$launch")
+for robot in left right; do
+  within 40 "no fresh estimate of $robot" is $robot False
+  echo_one "/$robot/stiffness_node/estimate/header/frame_id" | grep -q "$robot/base" || fail "frame of $robot"
+done
+left=$(echo_one /left/stiffness_node/estimate/pressure | tr -cd , | wc -c)
+right=$(echo_one /right/stiffness_node/estimate/pressure | tr -cd , | wc -c)
+[ "$left $right" = "5 11" ] || fail "commas between pressures: $left and $right, not those of 6 and 12 chambers"
+
+echo "- topics: shared are only those that ROS shares"
+shared=$(rostopic list | grep -vE '^/(left|right)/' | sort | xargs)
+[ "$shared" = "/diagnostics /rosout /rosout_agg /tf /tf_static" ] || [ "$shared" = "/diagnostics /rosout /rosout_agg /tf" ] ||
+  [ "$shared" = "/diagnostics /rosout /tf /tf_static" ] || fail "shared topics: $shared"
+for robot in left right; do
+  other=$([ $robot = left ] && echo right || echo left)
+  ! rosnode info "/$robot/stiffness_node" | grep -q "/$other/" || fail "$robot is connected to $other"
+done
+
+echo "- frames"
+frames=$( (timeout 20 rostopic echo -n 60 /tf; timeout 10 rostopic echo -n 2 /tf_static) |
+  sed -n 's/.*frame_id: "\(.*\)"/\1/p' | sort -u | xargs)
+echo "  $frames"
+for frame in $frames; do
+  [[ $frame =~ ^(left|right)/ ]] || fail "frame $frame belongs to neither"
+done
+[[ $frames == *left/tip* && $frames == *right/tip* ]] || fail "frames: $frames"
+
+if command -v roswtf >/dev/null; then
+  echo "- roswtf"
+  roswtf >"$work/roswtf.log" 2>&1 || true
+  cat "$work/roswtf.log"
+  ! grep -E '^(ERROR|WARNING)|^ \*' "$work/roswtf.log" | grep -E '/left/|/right/|live_stiffness|stiffness_node' ||
+    fail "roswtf has something against us"
+  grep -qE "No errors or warnings|Found [0-9]+ " "$work/roswtf.log" || fail "roswtf did not look"
+fi
+
+echo "- what happens to one leaves the other alone"
+pid=$(rosnode info /left/rig_simulator | sed -n 's/^Pid: //p')
+kill -9 "$pid"
+within 20 "left is not stale although its rig is dead" is left True
+is right False || fail "right is stale because the rig of left is dead"
+kill -INT $launch; wait $launch || fail "roslaunch: exit status $?"
