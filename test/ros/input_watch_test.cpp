@@ -34,5 +34,19 @@ TEST(InputWatch, FaultLastsUntilTheNextGoodMessage) {
   EXPECT_NEAR(watch.age(ros::Time(10.5)), 0.5, 1e-9);
 }
 
+TEST(InputWatch, CountsTheMessagesLostBetweenTwoOfOnePublisher) {
+  InputWatch watch("input");
+  watch.number("/driver", 7);
+  watch.number("/driver", 8);
+  EXPECT_EQ(watch.lost(), 0);
+  watch.number("/driver", 12);
+  EXPECT_EQ(watch.lost(), 3);
+  watch.number("/driver", 1);    // restarted
+  watch.number("/other", 50);    // another one has its own numbers
+  watch.number("/driver", 100);
+  watch.number("/driver", 100);  // one that does not number its messages
+  EXPECT_EQ(watch.lost(), 3);
+}
+
 }  // namespace
 }  // namespace live_stiffness
