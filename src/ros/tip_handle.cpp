@@ -209,7 +209,8 @@ Ghost TipHandle::answerDeflection(const Estimate& estimate) {
 }
 
 void TipHandle::addShape(Ghost& ghost) const {
-  for (const Station& station : sampleBackbone(solver_.model(), solver_.workspace(), kSections)) ghost.shape.push_back(station.X_BS);
+  for (const Station& station : sampleBackbone(solver_.model(), solver_.workspace(), kSections))
+    ghost.shape.push_back(station.X_BS);
 }
 
 }  // namespace live_stiffness

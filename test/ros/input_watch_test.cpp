@@ -64,5 +64,19 @@ TEST(InputWatch, AgeIsThatOfTheStampAndOfNothingAfterTimeJumpedBack) {
   EXPECT_GT(watch.age(ros::Time(1000.1)), 1e6) << "not fresh again once time has come round";
 }
 
+TEST(InputWatch, CountsTheMessagesLostBetweenTwoOfOnePublisher) {
+  InputWatch watch("input");
+  watch.number("/driver", 7);
+  watch.number("/driver", 8);
+  EXPECT_EQ(watch.lost(), 0);
+  watch.number("/driver", 12);
+  EXPECT_EQ(watch.lost(), 3);
+  watch.number("/driver", 1);    // restarted
+  watch.number("/other", 50);    // another one has its own numbers
+  watch.number("/driver", 100);
+  watch.number("/driver", 100);  // one that does not number its messages
+  EXPECT_EQ(watch.lost(), 3);
+}
+
 }  // namespace
 }  // namespace live_stiffness

@@ -17,7 +17,7 @@ class AnyMessage : public ros::SubscriptionCallbackHelper {
   using TakeBytes = std::function<void(const topic_tools::ShapeShifter& message, const std::string& publisher)>;
 
   AnyMessage(TakeOwn take_own, TakeBytes take_bytes)
-      : take_own_(std::move(take_own)), take_bytes_(std::move(take_bytes)), reader_(nullptr) {}
+      : take_own_(std::move(take_own)), take_bytes_(std::move(take_bytes)), reader_(Reader::Callback()) {}
 
   // roscpp calls this for bytes only, and call() with the result right after it in the same thread.
   ros::VoidConstPtr deserialize(const ros::SubscriptionCallbackHelperDeserializeParams& params) override {
@@ -35,9 +35,11 @@ class AnyMessage : public ros::SubscriptionCallbackHelper {
   bool hasHeader() override { return false; }
 
  private:
+  using Reader = ros::SubscriptionCallbackHelperT<const topic_tools::ShapeShifter::ConstPtr&>;
+
   TakeOwn take_own_;
   TakeBytes take_bytes_;
-  ros::SubscriptionCallbackHelperT<const topic_tools::ShapeShifter::ConstPtr&> reader_;
+  Reader reader_;
   ros::VoidConstPtr bytes_;
 };
 

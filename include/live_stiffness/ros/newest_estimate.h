@@ -30,7 +30,7 @@ class OwnSolver {
   }
   // Only after follow().
   const StiffnessModel& model() const { return *model_; }
-  StiffnessWorkspace& workspace() { return *workspace_; }
+  StiffnessWorkspace& workspace() const { return *workspace_; }
 
  private:
   std::shared_ptr<const StiffnessModel> model_;

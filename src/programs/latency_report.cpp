@@ -1,0 +1,170 @@
+// latency_report: measures from pressure stamp to received estimate, of a running stiffness_node or with --nodelet of one
+// that it loads into itself; prints one row for each rate, for scripts/latency.
+
+#include <live_stiffness/ChamberPressures.h>
+#include <live_stiffness/StiffnessEstimate.h>
+#include <nodelet/loader.h>
+#include <ros/ros.h>
+
+#include <algorithm>
+#include <atomic>
+#include <boost/program_options.hpp>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <thread>
+#include <vector>
+
+#include "progress_bar.h"
+
+namespace {
+
+using live_stiffness::ChamberPressures;
+using live_stiffness::StiffnessEstimate;
+
+constexpr double kPatience = 10.0;  // s
+
+// Publishes pressures, each its own, and times the estimate of each.
+class Stopwatch {
+ public:
+  Stopwatch(ros::NodeHandle node, int channels)
+      : channels_(channels),
+        publisher_(node.advertise<ChamberPressures>("chamber_pressures", 1000)),
+        subscriber_(node.subscribe("stiffness_node/estimate", 1000, &Stopwatch::onEstimate, this,
+                                   ros::TransportHints().tcpNoDelay())) {}
+
+  bool waitForNode() const {
+    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kPatience);
+    while (ros::ok() && ros::WallTime::now() < end) {
+      if (publisher_.getNumSubscribers() > 0 && subscriber_.getNumPublishers() > 0) return true;
+      ros::WallDuration(0.01).sleep();  // between two looks
+    }
+    return false;
+  }
+
+  // rate: Hz; 0: the next as soon as the last is answered. Rows are printed in microseconds.
+  void measure(double rate, double seconds, const std::string& transport) {
+    latencies_.clear();
+    latencies_.reserve(static_cast<size_t>(seconds * (rate > 0.0 ? rate : 20000.0)));
+    answered_ = 0;
+    solve_time_ = error_ = 0.0;
+    live_stiffness::ProgressBar bar(transport + ", " + (rate > 0.0 ? std::to_string(int(rate)) + " Hz" : "as fast as it goes"),
+                                    static_cast<long>(seconds));
+    const ros::WallTime start = ros::WallTime::now();
+    ros::WallTime next = start;
+    long sent = 0;
+    for (double time = 0.0; ros::ok() && time < seconds; time = (ros::WallTime::now() - start).toSec()) {
+      bar.update(static_cast<long>(time));
+      publish(sent++);
+      if (rate > 0.0) {
+        next += ros::WallDuration(1.0 / rate);
+        ros::WallTime::sleepUntil(next);
+      } else if (!waitForAnswers(sent)) {
+        break;
+      }
+    }
+    waitForAnswers(sent);
+    bar.update(static_cast<long>(seconds));
+    print(transport, rate, sent, (ros::WallTime::now() - start).toSec());
+  }
+
+ private:
+  void publish(long count) {
+    const auto message = boost::make_shared<ChamberPressures>();
+    message->pressure.resize(channels_);
+    // A wave with steps of kilopascals, so that each is beyond the threshold and is solved.
+    for (int k = 0; k < channels_; ++k)
+      message->pressure[k] = 40e3 + 30e3 * std::sin(0.1 * count + k / 2 * 2.0) + (count % 2) * 2e3;
+    message->header.seq = static_cast<uint32_t>(count + 1);  // within a process roscpp does not number them
+    message->header.stamp = ros::Time::now();
+    publisher_.publish(message);
+  }
+
+  bool waitForAnswers(long count) const {
+    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(2.0);
+    while (ros::ok() && answered_ < count) {
+      if (ros::WallTime::now() > end) return false;
+      std::this_thread::yield();
+    }
+    return true;
+  }
+
+  void onEstimate(const StiffnessEstimate::ConstPtr& message) {
+    const ros::Time now = ros::Time::now();
+    if (message->stale || message->header.stamp == newest_) return;  // a heartbeat's
+    newest_ = message->header.stamp;
+    latencies_.push_back((now - newest_).toSec());
+    solve_time_ += message->solve_time;
+    error_ = std::max(error_, message->numerical_error);
+    ++answered_;
+  }
+
+  void print(const std::string& transport, double rate, long sent, double seconds) {
+    std::vector<double> sorted = latencies_;
+    std::sort(sorted.begin(), sorted.end());
+    const auto at = [&](double share) {
+      return sorted.empty() ? NAN : 1e6 * sorted[std::min<size_t>(sorted.size() - 1, share * sorted.size())];
+    };
+    std::printf("%s,%g,%.0f,%ld,%ld,%.1f,%.1f,%.1f,%.1f,%.1f,%.1e\n", transport.c_str(), rate, sent / seconds, sent,
+                sent - answered_.load(), at(0.5), at(0.99), at(0.999), at(1.0), 1e6 * solve_time_ / std::max(1l, answered_.load()),
+                error_);
+    std::fflush(stdout);
+  }
+
+  int channels_;
+  ros::Publisher publisher_;
+  ros::Subscriber subscriber_;
+  std::vector<double> latencies_;  // s
+  std::atomic<long> answered_{0};
+  ros::Time newest_;
+  double solve_time_ = 0.0, error_ = 0.0;  // sum, s; largest estimated relative error
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  namespace options = boost::program_options;
+  double seconds = 0.0, minutes = 0.0;
+  int channels = 0;
+  options::options_description description("latency_report [OPTION...]: rates and latencies of stiffness_node, as CSV");
+  description.add_options()("help,h", "this text")(
+      "nodelet", "load the nodelet into this process; else a running stiffness_node is measured")(
+      "channels", options::value(&channels)->default_value(6), "pressures in a message")(
+      "seconds", options::value(&seconds)->default_value(20.0), "of 40 Hz, and as fast as it goes, each")(
+      "minutes", options::value(&minutes)->default_value(1.0), "of 1 kHz");
+  options::variables_map given;
+  try {
+    options::store(options::parse_command_line(argc, argv, description), given);
+    options::notify(given);
+    if (!(seconds > 0.0 && seconds <= 3600.0)) throw std::runtime_error("--seconds: must be in (0, 3600]");
+    if (!(minutes > 0.0 && minutes <= 600.0)) throw std::runtime_error("--minutes: must be in (0, 600]");
+    if (channels < 1 || channels > 1024) throw std::runtime_error("--channels: must be in [1, 1024]");
+  } catch (const std::exception& error) {
+    std::cerr << "latency_report: " << error.what() << "\nSee latency_report --help.\n";
+    return 2;
+  }
+  if (given.count("help")) {
+    std::cout << description;
+    return 0;
+  }
+  ros::init(argc, argv, "latency_report");
+  ros::NodeHandle node;
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
+  nodelet::Loader loader(false);
+  if (given.count("nodelet") &&
+      !loader.load("/stiffness_node", "live_stiffness/StiffnessNodelet", nodelet::M_string(), nodelet::V_string())) {
+    std::cerr << "latency_report: the nodelet cannot be loaded\n";
+    return 2;
+  }
+  Stopwatch stopwatch(node, channels);
+  if (!stopwatch.waitForNode()) {
+    std::cerr << "latency_report: no /stiffness_node within " << kPatience << " s: start it, or use --nodelet\n";
+    return 2;
+  }
+  const std::string transport = given.count("nodelet") ? "nodelet" : "TCPROS";
+  stopwatch.measure(40.0, seconds, transport);
+  stopwatch.measure(1000.0, 60.0 * minutes, transport);
+  stopwatch.measure(0.0, seconds, transport);
+  return 0;
+}
