@@ -4,6 +4,8 @@
 #include <ros/init.h>
 #include <ros/network.h>
 #include <ros/param.h>
+#include <xmlrpcpp/XmlRpcClient.h>
+#include <xmlrpcpp/XmlRpcException.h>
 
 #include <chrono>
 

@@ -60,11 +60,16 @@ done
 
 if command -v roswtf >/dev/null; then
   echo "- roswtf"
-  roswtf >"$work/roswtf.log" 2>&1 || true
+  ROS_ROOT=${ROS_ROOT:-/usr/share/ros} roswtf >"$work/roswtf.log" 2>&1 || true
+  sed -i 's/\x1b\[[0-9;]*m//g' "$work/roswtf.log"
   cat "$work/roswtf.log"
-  ! grep -E '^(ERROR|WARNING)|^ \*' "$work/roswtf.log" | grep -E '/left/|/right/|live_stiffness|stiffness_node' ||
-    fail "roswtf has something against us"
-  grep -qE "No errors or warnings|Found [0-9]+ " "$work/roswtf.log" || fail "roswtf did not look"
+  grep -qE "^No errors or warnings|^Found [0-9]+ " "$work/roswtf.log" || fail "roswtf did not look"
+  ! grep -E "^ERROR" "$work/roswtf.log" || fail "roswtf finds errors"
+  # Inputs that need not be there: a known wrench, and rviz's answers to the handle.
+  others=$(grep -E '^ +\* .*[^:]$' "$work/roswtf.log" | grep -vE '/tip_wrench$|/tip_marker/feedback$' || true)
+  [ -z "$others" ] || fail "roswtf warns of: $others"
+  others=$(grep -E "^WARNING" "$work/roswtf.log" | grep -v "node subscriptions are unconnected" || true)
+  [ -z "$others" ] || fail "roswtf: $others"
 fi
 
 echo "- what happens to one leaves the other alone"
