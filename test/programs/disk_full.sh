@@ -48,4 +48,4 @@ fails "$disk/out.yaml" "$programs/calibrate" "$scene" "$work/session.bag" --para
   --quiet -o "$disk/out.yaml"
 rm "$work/before"
 
-fails "$work/none" sh -c "printf '0,0,0,0,0,0\n' | '$programs/stiffness_solve' '$scene' >/dev/full"
+fails "$work/none" sh -c "printf 'p_1_pa,p_2_pa,p_3_pa,p_4_pa,p_5_pa,p_6_pa\n0,0,0,0,0,0\n' | '$programs/stiffness_solve' '$scene' >/dev/full"
