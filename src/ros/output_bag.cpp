@@ -20,11 +20,11 @@ void OutputBag::finish() {
 // Closes a bag that nobody is to see. Where the disk is full closing throws, and would do so again in rosbag's
 // destructor, which ends the program without a word: such a bag is kept for ever instead.
 void OutputBag::abandon() {
-  static std::vector<rosbag::Bag*> never_closed;
   if (bag_ == nullptr) return;
   try {
     bag_->close();
   } catch (const std::exception&) {
+    static std::vector<rosbag::Bag*> never_closed;
     never_closed.push_back(bag_.release());
   }
   bag_.reset();
