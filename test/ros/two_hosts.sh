@@ -30,18 +30,16 @@ ip -n ${name}b link set ${name}y up
 set +u; source "$build/devel/setup.bash"; set -u
 unset ROS_HOSTNAME
 export ROS_MASTER_URI=http://10.219.7.1:11311
-on() {  # a|b COMMAND...
-  local side=$1
-  shift
-  ip netns exec $name$side env ROS_IP=10.219.7.$([ "$side" = a ] && echo 1 || echo 2) "$@"
-}
+host() { echo "ip netns exec $name$1 env ROS_IP=10.219.7.$([ "$1" = a ] && echo 1 || echo 2)"; }
+on() { $(host "$1") "${@:2}"; }  # a|b COMMAND...
+start() { exec $(host "$1") "${@:2}"; }  # the same with &: what $! names is the command itself, and can be killed
 fail() { echo "failed: $1"; tail -n 20 "$work"/*.log; exit 1; }
 scene=$source/config/scenes/paper_one_segment.yaml programs=$build/devel/lib/live_stiffness
-on a rosmaster --core -p 11311 >"$work/master.log" 2>&1 & pids+=($!)
+start a rosmaster --core -p 11311 >"$work/master.log" 2>&1 & pids+=($!)
 end=$((SECONDS + 20))
 until on b rosparam list >/dev/null 2>&1; do [ $SECONDS -lt $end ] || fail "no master seen from the other host"; sleep 0.05; done
-on a "$programs/rig_simulator" "_scene_file:=$scene" >"$work/rig.log" 2>&1 & pids+=($!)
-on a "$programs/stiffness_node" "_scene_file:=$scene" >"$work/node.log" 2>&1 & pids+=($!)
+start a "$programs/rig_simulator" "_scene_file:=$scene" >"$work/rig.log" 2>&1 & pids+=($!)
+start a "$programs/stiffness_node" "_scene_file:=$scene" >"$work/node.log" 2>&1 & pids+=($!)
 end=$((SECONDS + 30))
 until on b timeout 10 rostopic echo -n 1 /stiffness_node/estimate/stale 2>/dev/null | grep -q False; do
   [ $SECONDS -lt $end ] || fail "no fresh estimate reaches the other host"
