@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """docs/latency.md from the rows of latency_report: ROWS BUILD."""
 import csv
+import os
 import platform
 import re
 import sys
@@ -24,7 +25,9 @@ def main():
     print("# Latency\n\nWritten by `scripts/latency`; `scripts/latency --minutes 10` for the long run. From the stamp of "
           "a pressure message, taken\njust before it is published, to the estimate in a subscriber's callback. Every message is "
           "solved (`paper_one_segment.yaml`,\nNCM, accuracy 1e-9). Back to the [reference](reference.md).\n")
-    print("Machine: %s, Linux %s, no real-time priority. Build: %s.\n" % (processor(), platform.release(), build_type))
+    print("Machine: %s, Linux %s, no real-time priority. Build: %s.\n"
+          "Load average when this was written: %.1f; with more than 1 or so, other work shared the processors, and the tails are its.\n"
+          % (processor(), platform.release(), build_type, os.getloadavg()[0]))
     print("| transport | asked | reached, Hz | sent | lost | median, us | p99, us | p99.9, us | max, us | mean solve, us | "
           "median / solve | largest estimated error |\n" + "|---" * 12 + "|")
     for row in rows:
