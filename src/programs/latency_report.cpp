@@ -124,21 +124,23 @@ class Stopwatch {
 
 int main(int argc, char** argv) {
   namespace options = boost::program_options;
-  double seconds = 0.0, minutes = 0.0;
-  int channels = 0;
+  struct {
+    double seconds, minutes;
+    int channels;
+  } wanted{};
   options::options_description description("latency_report [OPTION...]: rates and latencies of stiffness_node, as CSV");
   description.add_options()("help,h", "this text")(
       "nodelet", "load the nodelet into this process; else a running stiffness_node is measured")(
-      "channels", options::value(&channels)->default_value(6), "pressures in a message")(
-      "seconds", options::value(&seconds)->default_value(20.0), "of 40 Hz, and as fast as it goes, each")(
-      "minutes", options::value(&minutes)->default_value(1.0), "of 1 kHz");
+      "channels", options::value(&wanted.channels)->default_value(6), "pressures in a message")(
+      "seconds", options::value(&wanted.seconds)->default_value(20.0), "of 40 Hz, and as fast as it goes, each")(
+      "minutes", options::value(&wanted.minutes)->default_value(1.0), "of 1 kHz");
   options::variables_map given;
   try {
     options::store(options::parse_command_line(argc, argv, description), given);
     options::notify(given);
-    if (!(seconds > 0.0 && seconds <= 3600.0)) throw std::runtime_error("--seconds: must be in (0, 3600]");
-    if (!(minutes > 0.0 && minutes <= 600.0)) throw std::runtime_error("--minutes: must be in (0, 600]");
-    if (channels < 1 || channels > 1024) throw std::runtime_error("--channels: must be in [1, 1024]");
+    if (!(wanted.seconds > 0.0 && wanted.seconds <= 3600.0)) throw std::runtime_error("--seconds: must be in (0, 3600]");
+    if (!(wanted.minutes > 0.0 && wanted.minutes <= 600.0)) throw std::runtime_error("--minutes: must be in (0, 600]");
+    if (wanted.channels < 1 || wanted.channels > 1024) throw std::runtime_error("--channels: must be in [1, 1024]");
   } catch (const std::exception& error) {
     std::cerr << "latency_report: " << error.what() << "\nSee latency_report --help.\n";
     return 2;
@@ -157,14 +159,14 @@ int main(int argc, char** argv) {
     std::cerr << "latency_report: the nodelet cannot be loaded\n";
     return 2;
   }
-  Stopwatch stopwatch(node, channels);
+  Stopwatch stopwatch(node, wanted.channels);
   if (!stopwatch.waitForNode()) {
     std::cerr << "latency_report: no /stiffness_node within " << kPatience << " s: start it, or use --nodelet\n";
     return 2;
   }
   const std::string transport = given.count("nodelet") ? "nodelet" : "TCPROS";
-  stopwatch.measure(40.0, seconds, transport);
-  stopwatch.measure(1000.0, 60.0 * minutes, transport);
-  stopwatch.measure(0.0, seconds, transport);
+  stopwatch.measure(40.0, wanted.seconds, transport);
+  stopwatch.measure(1000.0, 60.0 * wanted.minutes, transport);
+  stopwatch.measure(0.0, wanted.seconds, transport);
   return 0;
 }
