@@ -1,5 +1,6 @@
 // ~pause, ~reset, ~reload and dynamic_reconfigure of a stiffness_node, which here is a nodelet. See commands.test.
 
+#include <dynamic_reconfigure/ConfigDescription.h>
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <gtest/gtest.h>
 #include <std_srvs/SetBool.h>
@@ -9,6 +10,7 @@
 #include <iterator>
 
 #include "live_stiffness/rod/scene_file.h"
+#include "live_stiffness/ros/node_parameters.h"
 #include "support/driven_node.h"
 
 namespace live_stiffness {
@@ -134,6 +136,43 @@ TEST_F(CommandsTest, ReconfiguringChangesTheRunningModelAndItsParameters) {
   EXPECT_EQ(dumped, 1e-3);
   reconfigure("accuracy", 1e-9);
   EXPECT_TRUE(publishUntil([&] { return watched_.solvedFor(bent_) && watched_.estimate->numerical_error <= 1e-9; }));
+}
+
+// Whether parameters that are as in the file but for this one are accepted at start.
+bool isAcceptedAtStart(const std::string& key, double value) {
+  const ros::NodeHandle tried("/tried");
+  double otherwise = 0.0;
+  EXPECT_TRUE(tried.getParam(key, otherwise)) << key << " is not in the parameter file";
+  tried.setParam(key, value);
+  bool accepted = true;
+  try {
+    loadNodeParameters(tried);
+  } catch (const ConfigurationError&) {
+    accepted = false;
+  }
+  tried.setParam(key, otherwise);
+  return accepted;
+}
+
+TEST_F(CommandsTest, ReconfiguringHasTheDefaultsAndRangesOfTheStart) {
+  const auto description = ros::topic::waitForMessage<dynamic_reconfigure::ConfigDescription>(
+      "/stiffness_node/parameter_descriptions", ros::Duration(20.0));
+  ASSERT_NE(description, nullptr);
+  ASSERT_FALSE(description->dflt.doubles.empty());
+  for (const auto& entry : description->dflt.doubles) {
+    SCOPED_TRACE(entry.name);
+    double in_file = 0.0;
+    EXPECT_TRUE(ros::param::get("/defaults/" + entry.name, in_file));
+    EXPECT_EQ(entry.value, in_file);
+    const double low = valueOf(description->min, entry.name), high = valueOf(description->max, entry.name);
+    // What ends contact has another parameter for a bound, too.
+    const bool ends_contact = entry.name.find("contact_off") == 0, begins_contact = entry.name.find("contact_on") == 0;
+    EXPECT_TRUE(begins_contact || isAcceptedAtStart(entry.name, low));
+    EXPECT_TRUE(ends_contact || isAcceptedAtStart(entry.name, high));
+    constexpr double kBeyond = 1e-6;
+    EXPECT_FALSE(isAcceptedAtStart(entry.name, low - kBeyond * (std::abs(low) + 1e-3)));
+    EXPECT_FALSE(isAcceptedAtStart(entry.name, high * (1.0 + kBeyond)));
+  }
 }
 
 TEST_F(CommandsTest, ReconfiguringRefusesWhatDoesNotFitTogether) {
