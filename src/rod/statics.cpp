@@ -330,6 +330,7 @@ bool StaticsSolver::findAlongLoads(const DeadLoads& loads, Backbone& backbone, S
 // much of x, and of rounding, is left, too.
 bool StaticsSolver::findTangent(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
   constexpr double kRounding = 2e-16;
+  constexpr double kEnough = 2.0;  // growth is known afterwards only; seldom does a little of it take another round
   const double goal = 0.2 * accuracy_, shape = report.iteration;
   const bool self_adjoint = angular(loads.tip).isZero(0.0);
   double cancellation = 1.0, growth_squared = 1.0;  // of linear columns alone, and of all
@@ -358,7 +359,7 @@ bool StaticsSolver::findTangent(const DeadLoads& loads, Backbone& backbone, Stat
     report.iteration = shape + left;
     report.rounding = kRounding * std::sqrt(growth_squared * std::max(1.0, condition));
     report.truncation = discretisation_.truncation(cancellation, backbone);
-    if (left * amplification_ <= goal) break;
+    if (left * amplification_ <= kEnough * goal) break;
   }
   report.amplification = amplification_;
   return true;
