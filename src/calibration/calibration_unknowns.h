@@ -1,0 +1,24 @@
+#pragma once
+// What a calibration searches for.
+
+#include <vector>
+
+#include "live_stiffness/calibration/scene_parameter.h"
+
+namespace live_stiffness {
+
+// Unknowns: x, the parameters in units of their prior sigmas from their start; and for each recording 12 numbers
+//   [w_AB, p_AB, p_TS, w_TS], R_AB = exp(w_AB) R_AB_start, R_TS = exp(w_TS) R_TS_start; m and rad.
+constexpr int kRegistrationSize = 12;
+constexpr double kOffsetSigma = 0.03;  // prior of the sensor's offset from T, per axis, m: it is on the tip
+using RegistrationVector = Eigen::Matrix<double, kRegistrationSize, 1>;
+
+struct CalibrationUnknowns {
+  Eigen::VectorXd x;
+  std::vector<RegistrationVector> registrations;
+};
+
+// Parameters in SI at x, of as many entries as there are parameters, within their bounds.
+Eigen::VectorXd valuesAt(const std::vector<SceneParameter>& parameters, const double* x);
+
+}  // namespace live_stiffness

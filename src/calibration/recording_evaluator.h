@@ -1,0 +1,47 @@
+#pragma once
+// The model along a recording, as a calibration asks for it.
+
+#include <string>
+#include <vector>
+
+#include "calibration/calibration_unknowns.h"
+#include "live_stiffness/calibration/calibration.h"
+
+namespace live_stiffness {
+
+// Predictions of one recording, kept for the x of the last call, since Ceres asks sample by sample.
+class RecordingEvaluator {
+ public:
+  RecordingEvaluator(const Scene& scene, const ChannelMap& channels, const std::vector<SceneParameter>& parameters,
+                     const CalibrationRecording& data, const CalibrationOptions& options);
+
+  // Predictions at x; nullptr where a sample has no solution.
+  const std::vector<TipPrediction>* at(const double* x, bool derivatives);
+  // The same for every sample of the recording, used or not.
+  bool predictAll(const double* x, std::vector<TipPrediction>& predictions);
+
+  // Wrenches of the loaded samples, with the tip oriented as the tracker saw it.
+  void updateWrenches(const Registration& registration);
+
+  Registration registration(const RegistrationVector& r) const;
+  // Registration that fits best at x, by fitRegistration(), as the new start from which registrations are counted.
+  void restart(const double* x);
+
+  const Registration& startRegistration() const { return start_; }
+  const CalibrationRecording& data() const { return data_; }
+  const std::string& failure() const { return predictor_.failure(); }
+  double correlation() const { return correlation_; }
+
+ private:
+  TipPredictor predictor_;
+  const CalibrationRecording& data_;
+  ForceSensorMount mount_;
+  std::vector<ActuationSample> samples_;
+  std::vector<TipPrediction> predictions_;
+  Eigen::VectorXd cached_;
+  bool has_cache_ = false, cache_has_derivatives_ = false, cache_ok_ = false;
+  Registration start_;
+  double correlation_ = 1.0;
+};
+
+}  // namespace live_stiffness
