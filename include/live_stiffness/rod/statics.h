@@ -59,6 +59,9 @@ class StaticsSolver {
   void reset();
 
  private:
+  static constexpr int kMaxSweeps = 40;
+  static constexpr double kSlowestRate = 0.2;  // at which sweeps may be counted on to converge, at worst
+
   class Finder;  // for the branch search
   enum class Known {  // of a solution nearby
     kNothing,

@@ -1,0 +1,108 @@
+// How StaticsSolver finds the stable equilibrium that a robot comes to as its loads grow from zero.
+
+#include "live_stiffness/rod/stability.h"
+#include "live_stiffness/rod/statics.h"
+
+namespace live_stiffness {
+namespace {
+
+constexpr double kRoughShape = 1e-3;  // error of discretisation that does for loads on the way to the last
+
+}  // namespace
+
+// Settles to one load of a branch search, with more elements where the robot bends more by now.
+class StaticsSolver::Finder : public EquilibriumFinder {
+ public:
+  Finder(StaticsSolver& solver, const DeadLoads& last, Backbone& backbone, StaticsReport& report)
+      : solver_(solver), last_(last), backbone_(backbone), report_(report) {}
+
+  std::optional<Equilibrium> settle(const DeadLoads& loads, const Vector3& base_moment) override {
+    prepare(solver_.chain_, loads, backbone_);
+    const bool is_last = loads.gravity == last_.gravity && loads.tip == last_.tip;
+    Vector3 guess = base_moment;
+    bool refined = false;
+    do {
+      if (!(settleQuickly(loads, guess, refined) || settleByNewton(loads, guess)) ||
+          !solver_.findTangent(loads, backbone_, report_)) {
+        solver_.forgetGuesses(loads, backbone_);
+        return std::nullopt;
+      }
+      guess = solver_.base_moment_;
+    } while ((refined = refine(loads, is_last ? solver_.accuracy_ : kRoughShape)));
+    return Equilibrium{solver_.base_moment_, backbone_.X_BT.p, solver_.tangent_,
+                       solver_.isStable(loads, backbone_, report_)};
+  }
+  double bendingOf(const Vector3& moment) const override { return solver_.bendingOf(moment); }
+  bool exhausted() const override { return report_.iterations >= kMaxIterations; }
+
+ private:
+  // From the shape and the columns of the loads before, or from the base moment that fewer elements have led to.
+  bool settleQuickly(const DeadLoads& loads, const Vector3& base_moment, bool refined) {
+    // Of rods that the loads bend little sweeps converge surely. Under more load a base moment must be known to more
+    // digits than they give, and Newton's method is not to be kept waiting.
+    constexpr double kLittle = 3.0;  // load number
+    const bool is_little = loadNumber(solver_.chain_, loads, backbone_) < kLittle;
+    const int few_sweeps = is_little ? 30 : 12;
+    const double far_from_buckling = is_little ? 8.0 : 4.0;  // amplification
+    const bool has_columns = solver_.nodes_hold_guess_ && solver_.has_columns_;
+    if (!(has_columns || refined) || solver_.amplification_ > far_from_buckling) return false;
+    if (has_columns) {
+      const Vector3 step = base_moment - solver_.base_moment_;
+      const ChainState chain = stateOf(solver_.chain_, loads, base_moment, backbone_);
+      backbone_.passes->follow_all(chain, {step.x(), step.y(), step.z()});
+    }
+    solver_.base_moment_ = base_moment;
+    const int before = report_.iterations;
+    const Known known = has_columns ? Known::kColumns : Known::kInverse;
+    const bool settled = solver_.quick(loads, known, few_sweeps, backbone_, report_);
+    report_.iterations = before + 1;  // as much work as one converged shot
+    return settled;
+  }
+  bool settleByNewton(const DeadLoads& loads, const Vector3& base_moment) {
+    solver_.base_moment_ = base_moment;
+    solver_.warm_ = false;
+    return solver_.newton(loads, backbone_, 12, report_);
+  }
+  bool refine(const DeadLoads& loads, double tolerated) {
+    if (!solver_.discretisation_.refine(report_.amplification, backbone_, tolerated)) return false;
+    solver_.forgetGuesses(loads, backbone_);
+    return true;
+  }
+
+  StaticsSolver& solver_;
+  const DeadLoads& last_;
+  Backbone& backbone_;
+  StaticsReport& report_;
+};
+
+// Sweeps to the finest goal from a solution; takes it back if they fail.
+void StaticsSolver::polish(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
+  const Vector3 before = base_moment_;
+  StaticsReport finer;
+  if (quick(loads, Known::kColumns, kMaxSweeps, backbone, finer) && findTangent(loads, backbone, finer)) {
+    report.residual = finer.residual;
+    report.iteration = finer.iteration;
+  } else {
+    Vector3 residual;
+    base_moment_ = before;
+    forgetGuesses(loads, backbone);
+    report.stable = march(loads, before, backbone, residual) && findTangent(loads, backbone, report);
+  }
+  report.iterations += finer.iterations;
+}
+
+bool StaticsSolver::findAlongLoads(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
+  discretisation_.choose(loads, backbone);
+  placeFresh(DeadLoads(), backbone);
+  Finder finder(*this, loads, backbone, report);
+  BranchSearch search(finder, length_);
+  const BranchEnd end = search.run(loads);
+  report.buckled = end == BranchEnd::kBuckled;
+  report.stable = report.buckled || end == BranchEnd::kLoading;
+  report.stable_share = search.stableShare();
+  if (report.stable && (report.residual + report.iteration) * report.amplification > accuracy_)
+    polish(loads, backbone, report);
+  return end != BranchEnd::kNotConverged;
+}
+
+}  // namespace live_stiffness

@@ -1,0 +1,175 @@
+// How StaticsSolver comes from a guess to an equilibrium of one load, and what its tangent is.
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "live_stiffness/rod/statics.h"
+
+namespace live_stiffness {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kResidualGoal = 1e-12;     // rad, see StaticsReport::residual
+constexpr double kResidualAccepted = 1e-8;  // rad, when rounding stops it short of the goal; it is part of the estimate
+constexpr double kRoughColumns = 1e-2;      // relative error, enough for sweeps to converge
+constexpr double kFineColumns = 1e-12;      // for Newton steps where the residual is nearly singular, or huge
+constexpr double kMostAmplification = 1e6;
+constexpr double kQuickestRate = 0.01;      // at which sweeps may be counted on to converge at best
+
+}  // namespace
+
+bool StaticsSolver::march(const DeadLoads& loads, const Vector3& base_moment, Backbone& backbone, Vector3& residual) {
+  nodes_hold_guess_ = shoot(chain_, loads, base_moment, nodes_hold_guess_, backbone, residual);
+  return nodes_hold_guess_;
+}
+
+bool StaticsSolver::updateInverse(const DeadLoads& loads, double goal, Backbone& backbone) {
+  ElementColumns columns;
+  const double change = tipColumns(chain_, loads, !has_columns_, goal, backbone, columns);
+  has_columns_ = std::isfinite(change);
+  residual_inverse_ = columnsOf(columns.m).leftCols<3>().inverse();
+  return has_columns_ && residual_inverse_.allFinite();
+}
+
+// Sweeps of one pass an element, each followed by a step of the base moment with the kept inverse: shape and moment
+// converge together, linearly, by a factor of about ten a sweep. Without trouble it takes one to ten.
+bool StaticsSolver::quick(const DeadLoads& loads, Known known, int max_sweeps, Backbone& backbone,
+                          StaticsReport& report) {
+  const int sweeps_before_columns = known == Known::kNothing ? 2 : 0;
+  bool has_columns = known == Known::kColumns;
+  constexpr double kRounding = 1e-13;
+  const double goal = std::max(0.2 * accuracy_ / amplification_, 1e-15);
+  if (known == Known::kNothing) residual_inverse_.setIdentity();  // right but for the load's own effect
+  double last = kInfinity;
+  int growing = 0;
+  ChainState chain = stateOf(chain_, loads, base_moment_, backbone);
+  SweepResult s;
+  for (int i = 0; i < max_sweeps && report.iterations < kMaxIterations; ++i) {
+    ++report.iterations;
+    backbone.passes->sweep(chain, nodes_hold_guess_ ? Pass::kOnce : Pass::kAnew, s);
+    nodes_hold_guess_ = s.sound;
+    const double error = std::max(s.change, bendingOf(Vector3(s.residual)));
+    if (!s.sound || (growing += error > last) > 3) return false;
+    if (!has_columns && i >= sweeps_before_columns) {
+      SweepResult unchanged;
+      backbone.passes->sweep(chain, Pass::kShape, unchanged);
+      if (!(has_columns = updateInverse(loads, kRoughColumns, backbone))) return false;
+    }
+    const Vector3 step = -residual_inverse_ * Vector3(s.residual);
+    base_moment_ += step;
+    for (int k = 0; k < 3; ++k) chain.base_moment[k] = base_moment_[k];
+    if (has_columns) backbone.passes->follow_all(chain, {step.x(), step.y(), step.z()});
+    // A single sweep shows no rate: then that of the last solve counts, but not one that was quick by luck.
+    if (i > 0) rate_ = std::max(kQuickestRate, std::min(kSlowestRate, error / last));  // 0 / 0: the slowest
+    const double rate = i > 0 ? rate_ : std::max(rate_, 0.5 * kSlowestRate);
+    const bool at_rounding = error <= kRounding && error > 0.3 * last;
+    report.iteration = at_rounding ? error : rate * error;
+    last = error;
+    if (!has_columns || (report.iteration > goal && !at_rounding)) continue;
+    backbone.passes->sweep(chain, Pass::kShape, s);
+    report.residual = bendingOf(Vector3(s.residual));
+    if (!(report.residual <= goal) && !at_rounding) continue;
+    backbone.setTip(s.R_tip, s.p_tip);
+    return true;
+  }
+  return false;
+}
+
+bool StaticsSolver::newton(const DeadLoads& loads, Backbone& backbone, int max_iterations, StaticsReport& report) {
+  Vector3 m0 = base_moment_, accepted_m0 = m0, residual = Vector3::Zero();
+  Vector3 step = residual, accepted_residual = residual;
+  double accepted = kInfinity, damping = 1.0;
+  bool have_inverse = warm_, inverse_is_fresh = false;
+  const auto refresh = [&] {
+    have_inverse = inverse_is_fresh = updateInverse(loads, kFineColumns, backbone);
+  };
+  for (int i = 0; i < max_iterations && report.iterations < kMaxIterations; ++i) {
+    ++report.iterations;
+    const bool marched = march(loads, m0, backbone, residual);
+    report.residual = marched ? bendingOf(residual) : kInfinity;
+    const bool stalled = report.residual <= kResidualAccepted && report.residual >= 0.5 * accepted && inverse_is_fresh;
+    if (report.residual <= kResidualGoal || stalled) {
+      report.iteration = 0.0;  // every shot has converged
+      base_moment_ = m0;
+      return true;
+    }
+    if (report.residual < accepted) {
+      if (have_inverse && std::isfinite(accepted)) {
+        // Broyden's update: the inverse maps the change of residual just seen to the step just made.
+        const Vector3 change = residual_inverse_ * (residual - accepted_residual);
+        const Vector3 made = m0 - accepted_m0;
+        const double scale = made.dot(change);
+        if (std::abs(scale) > 1e-3 * made.squaredNorm())
+          residual_inverse_ += (made - change) * (made.transpose() * residual_inverse_) / scale;
+      }
+      if (!have_inverse || (report.residual > 0.1 * accepted && !stalled)) refresh();
+      else inverse_is_fresh = false;
+      accepted = report.residual;
+      accepted_m0 = m0;
+      accepted_residual = residual;
+      damping = 1.0;
+    } else if (std::isinf(accepted)) {
+      return false;  // not even the first guess can be integrated
+    } else if (!inverse_is_fresh) {
+      if (!march(loads, accepted_m0, backbone, residual)) return false;
+      refresh();
+      damping = 1.0;
+    } else {
+      damping *= 0.5;
+      if (damping < 1e-2) return false;
+      m0 = accepted_m0 + damping * step;
+      continue;
+    }
+    step = -residual_inverse_ * residual;
+    if (!step.allFinite()) return false;
+    m0 = accepted_m0 + damping * step;
+  }
+  return false;
+}
+
+// Columns with a relative error x give a compliance with an error of about x. But the linearised rod is its own adjoint
+// as long as no tip moment acts, so the work of one wrench's moments on what another one's columns miss (their defect)
+// is that error to first order; without it x^2 is left. See docs/derivation.md.
+//
+// On a long taut chain the columns are far larger than the compliance made of them, as they are near a fold. Then so
+// much of x, and of rounding, is left, too.
+bool StaticsSolver::findTangent(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
+  constexpr double kRounding = 2e-16;
+  constexpr double kEnough = 2.0;  // growth is known afterwards only; seldom does a little of it take another round
+  const double goal = 0.2 * accuracy_, shape = report.iteration;
+  const bool self_adjoint = angular(loads.tip).isZero(0.0);
+  double cancellation = 1.0, growth_squared = 1.0;  // of linear columns alone, and of all
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    ElementColumns tip;
+    const double error_goal = std::max(goal / amplification_, 1e-16);
+    const double column_goal = self_adjoint ? std::sqrt(2.0 * error_goal / (amplification_ * growth_squared))
+                                            : error_goal / cancellation;
+    const double change = tipColumns(chain_, loads, !has_columns_, column_goal, backbone, tip, self_adjoint);
+    has_columns_ = std::isfinite(change);
+    if (!has_columns_) return false;
+    backbone.passes->tangent(tip, self_adjoint, residual_inverse_.data(), tangent_.data());
+    if (!std::isfinite(tangent_.sum())) return false;
+    amplification_ =
+        std::clamp(tangent_.diagonal().tail<3>().cwiseAbs().maxCoeff() / stiffest_, 1.0, kMostAmplification);
+    const double p = columnsOf(tip.p).rightCols<3>().squaredNorm(), m = columnsOf(tip.m).leftCols<3>().squaredNorm(),
+                 phi = columnsOf(tip.phi).leftCols<3>().squaredNorm(), inverse = residual_inverse_.squaredNorm();
+    const double linear_part = std::max(1.0, p / tangent_.topLeftCorner<3, 3>().squaredNorm());
+    // Without loads both are 1. Towards a bifurcation the condition grows as the amplification, which counts anyway.
+    const double angular_part = phi * inverse / (3.0 * tangent_.bottomRightCorner<3, 3>().squaredNorm());
+    const double condition = m * inverse / (9.0 * amplification_ * amplification_);
+    cancellation = std::sqrt(linear_part);
+    growth_squared = std::max(linear_part, angular_part);
+    const double left =
+        self_adjoint ? 0.5 * change * change * growth_squared * amplification_ : change * cancellation;
+    report.iteration = shape + left;
+    report.rounding = kRounding * std::sqrt(growth_squared * std::max(1.0, condition));
+    report.truncation = discretisation_.truncation(cancellation, backbone);
+    if (left * amplification_ <= kEnough * goal) break;
+  }
+  report.amplification = amplification_;
+  return true;
+}
+
+}  // namespace live_stiffness
