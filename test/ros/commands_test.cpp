@@ -78,6 +78,14 @@ class CommandsTest : public ::testing::Test {
   ros::Publisher pressures_;
 };
 
+// roscpp decodes a message once for all subscribers of a process.
+TEST_F(CommandsTest, NodeletsOfOneManagerHearTheSameMessages) {
+  Watched twin("/twin");
+  ASSERT_TRUE(publishUntil([&] { return twin.solvedFor(bent_); }));
+  EXPECT_TRUE(twin.always_finite);
+  EXPECT_NEAR(twin.estimate->tip_pose.position.z, watched_.estimate->tip_pose.position.z, 1e-8);
+}
+
 TEST_F(CommandsTest, PausedEstimatesAreStaleUntilTheNodeGoesOn) {
   ASSERT_TRUE(pause(true));
   EXPECT_TRUE(publishUntil([&] { return watched_.estimate->stale; }));

@@ -104,6 +104,16 @@ TEST(Conversions, MessagesCutShortAreFaults) {
   EXPECT_FALSE(readPose(withBytes<geometry_msgs::TransformStamped>({}), 1.0).ok());
 }
 
+TEST(Conversions, IsWholeUnlessCutShortOrOfATypeThatIsNotRead) {
+  EXPECT_TRUE(isWhole(onTheWire(ChamberPressures())));
+  EXPECT_TRUE(isWhole(onTheWire(RodLengths())));
+  EXPECT_TRUE(isWhole(onTheWire(geometry_msgs::PoseStamped())));
+  EXPECT_FALSE(isWhole(onTheWire(std_msgs::String())));
+  EXPECT_FALSE(isWhole(withBytes<ChamberPressures>({1, 2, 3})));
+  EXPECT_FALSE(isWhole(withBytes<RodLengths>({1, 2, 3})));
+  EXPECT_FALSE(isWhole(withBytes<geometry_msgs::PoseStamped>({1, 2, 3})));
+}
+
 TEST(Conversions, MessagesThatClaimFourThousandMillionNumbersAreFaults) {
   // Sequence, stamp, empty frame, then the length of the array; the dimensions of a MultiArray come first.
   std::vector<uint8_t> stamped(16, 0), dimensions;

@@ -1,6 +1,7 @@
 #pragma once
 // One topic whose messages may have any type. A message of type Own that is published in the same process (a nodelet's
-// manager) is handed over as it is, without a copy; any other comes as its bytes.
+// manager) is handed over as it is, without a copy; one of another process is decoded once; one of another type comes as
+// its bytes.
 
 #include <ros/node_handle.h>
 #include <topic_tools/shape_shifter.h>
@@ -8,8 +9,12 @@
 #include <functional>
 #include <string>
 
+#include "live_stiffness/ros/conversions.h"
+
 namespace live_stiffness {
 
+// roscpp decodes a message once for all subscribers of a process that ask for Own, by whichever of them came first. So
+// what one makes of it must be an Own to all of them: of another type it is an empty one, which carries the bytes.
 template <class Own>
 class AnyMessage : public ros::SubscriptionCallbackHelper {
  public:
@@ -19,16 +24,21 @@ class AnyMessage : public ros::SubscriptionCallbackHelper {
   AnyMessage(TakeOwn take_own, TakeBytes take_bytes)
       : take_own_(std::move(take_own)), take_bytes_(std::move(take_bytes)), reader_(Reader::Callback()) {}
 
-  // roscpp calls this for bytes only, and call() with the result right after it in the same thread.
+  // Nothing, and take_bytes is told, if a message that says to be an Own is not a whole one.
   ros::VoidConstPtr deserialize(const ros::SubscriptionCallbackHelperDeserializeParams& params) override {
-    return bytes_ = reader_.deserialize(params);
+    const auto bytes = boost::static_pointer_cast<const topic_tools::ShapeShifter>(reader_.deserialize(params));
+    if (!bytes) return nullptr;
+    if (bytes->getDataType() != ros::message_traits::DataType<Own>::value())
+      return boost::shared_ptr<const Own>(new Own, Carrier{bytes});
+    if (isWhole(*bytes)) return bytes->instantiate<Own>();
+    take_bytes_(*bytes, (*params.connection_header)["callerid"]);
+    return nullptr;
   }
   void call(ros::SubscriptionCallbackHelperCallParams& params) override {
     const ros::VoidConstPtr message = params.event.getConstMessage();
     const std::string& publisher = params.event.getPublisherName();
-    if (message == bytes_) take_bytes_(*static_cast<const topic_tools::ShapeShifter*>(message.get()), publisher);
+    if (const auto* carrier = boost::get_deleter<Carrier>(message)) take_bytes_(*carrier->bytes, publisher);
     else take_own_(*static_cast<const Own*>(message.get()), publisher);
-    bytes_.reset();
   }
   const std::type_info& getTypeInfo() override { return typeid(Own); }
   bool isConst() override { return true; }
@@ -36,11 +46,14 @@ class AnyMessage : public ros::SubscriptionCallbackHelper {
 
  private:
   using Reader = ros::SubscriptionCallbackHelperT<const topic_tools::ShapeShifter::ConstPtr&>;
+  struct Carrier {
+    topic_tools::ShapeShifter::ConstPtr bytes;
+    void operator()(const Own* message) const { delete message; }
+  };
 
   TakeOwn take_own_;
   TakeBytes take_bytes_;
   Reader reader_;
-  ros::VoidConstPtr bytes_;
 };
 
 // The callbacks must not be called after what they refer to is gone: shut the subscriber down first.

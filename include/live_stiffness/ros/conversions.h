@@ -51,6 +51,9 @@ struct PressureFormat {
 // Pa per unit for Pa, kPa, bar, mbar, psi; 0 for any other name.
 double pascalsPerUnit(const std::string& unit);
 
+// Whether the bytes are a whole ChamberPressures, RodLengths or PoseStamped; false for any other type.
+bool isWhole(const topic_tools::ShapeShifter& message);
+
 // Gauge pressures (Pa) of all channels from ChamberPressures, std_msgs/Float64MultiArray or Float32MultiArray.
 // Faults: another type, a value that is not finite, a negative absolute pressure.
 Reading<Pressures> readPressures(const topic_tools::ShapeShifter& message, const PressureFormat& format);
