@@ -1,6 +1,5 @@
 // stiffness_node against the core model, through topics. See node.test for the four nodes.
 
-#include <diagnostic_msgs/DiagnosticArray.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <gtest/gtest.h>
 #include <std_msgs/Float32MultiArray.h>
@@ -17,6 +16,7 @@
 #include "live_stiffness/rod/scene_file.h"
 #include "live_stiffness/ros/conversions.h"
 #include "support/driven_node.h"
+#include "support/watched_diagnostics.h"
 
 namespace live_stiffness {
 namespace {
@@ -31,7 +31,6 @@ class StiffnessNodeTest : public ::testing::Test {
         pressures_(node_.advertise<ChamberPressures>("chamber_pressures", 10)),
         poses_(node_.advertise<geometry_msgs::PoseStamped>("aurora_pose", 10)),
         wrenches_(node_.advertise<geometry_msgs::WrenchStamped>("tip_wrench", 10)),
-        diagnostics_(node_.subscribe("/diagnostics", 100, &StiffnessNodeTest::onDiagnostics, this)),
         markers_(node_.subscribe("/stiffness_node/markers", 10, &StiffnessNodeTest::onMarkers, this)) {}
 
   void SetUp() override {
@@ -54,15 +53,8 @@ class StiffnessNodeTest : public ::testing::Test {
     return model_.solve(values, wrench, workspace);
   }
 
-  // Level of a diagnostics entry of stiffness_node, -1 before the first.
-  int level(const std::string& task) const {
-    const auto found = levels_.find("stiffness_node: " + task);
-    return found == levels_.end() ? -1 : found->second;
-  }
-  std::string text(const std::string& task) const {
-    const auto found = texts_.find("stiffness_node: " + task);
-    return found == texts_.end() ? "" : found->second;
-  }
+  int level(const std::string& task) const { return diagnostics_.level(task); }
+  std::string text(const std::string& task) const { return diagnostics_.text(task); }
 
   const Pressures bent_ = pressuresOf({60e3, 60e3, 0.0, 0.0, 0.0, 0.0});
   const Pressures other_ = pressuresOf({0.0, 0.0, 90e3, 90e3, 30e3, 30e3});
@@ -71,20 +63,12 @@ class StiffnessNodeTest : public ::testing::Test {
   StiffnessModel model_;
   Watched watched_;
   ros::Publisher pressures_, poses_, wrenches_;
-  ros::Subscriber diagnostics_, markers_;
+  WatchedDiagnostics diagnostics_;
+  ros::Subscriber markers_;
   visualization_msgs::MarkerArray::ConstPtr newest_markers_;
 
  private:
-  void onDiagnostics(const diagnostic_msgs::DiagnosticArray::ConstPtr& message) {
-    for (const auto& status : message->status) {
-      levels_[status.name] = status.level;
-      texts_[status.name] = status.message;
-    }
-  }
   void onMarkers(const visualization_msgs::MarkerArray::ConstPtr& message) { newest_markers_ = message; }
-
-  std::map<std::string, int> levels_;
-  std::map<std::string, std::string> texts_;
 };
 
 TEST_F(StiffnessNodeTest, EstimateEqualsCoreModel) {

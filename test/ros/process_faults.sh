@@ -2,31 +2,8 @@
 # Faults of processes, each with real nodes: the master dies and comes back, a publisher is killed and comes back under
 # another name, signals, kill -9 under respawn. BUILD_DIR SOURCE_DIR
 # Times are printed, not asserted: a busy machine has its own.
-set -euo pipefail
-build=$1 source=$2 programs=$1/devel/lib/live_stiffness
-set +u; source "$build/devel/setup.bash"; set -u
-export ROS_HOSTNAME=localhost
-port=11911
-while (: </dev/tcp/127.0.0.1/$port) 2>/dev/null; do port=$((port + 1)); done
-export ROS_MASTER_URI=http://localhost:$port
-work=$(mktemp -d)
-pids=()
-cleanup() {
-  for pid in "${pids[@]}"; do kill "$pid" 2>/dev/null || true; done
-  wait || true
-  rm -rf "$work"
-}
-trap cleanup EXIT
+source "$2/test/support/ros_script.sh"
 
-fail() { echo "failed: $1"; tail -n 20 "$work"/*.log; exit 1; }
-now() { date +%s.%N; }
-since() { awk -v a="$1" -v b="$(now)" 'BEGIN { printf "%.2f s", b - a }'; }
-# within SECONDS WHAT COMMAND...: waits until the command succeeds.
-within() {
-  local end=$((SECONDS + $1)) what=$2
-  shift 2
-  until "$@" >/dev/null 2>&1; do [ $SECONDS -lt $end ] || fail "$what"; sleep 0.05; done
-}
 start_master() {
   rosmaster --core -p $port >>"$work/master.log" 2>&1 &
   master=$!
@@ -67,7 +44,7 @@ echo "  found after $(since "$begin")"
 within 20 "services are not registered anew" \
   sh -c "rosservice call /stiffness_node/compliance_at '{segment: 0, fraction: 1.0}' | grep -q 'success: True'"
 within 20 "parameters are not there anew" sh -c "rosparam get /stiffness_node/scene_file | grep -q paper_one_segment"
-rosnode info /stiffness_node | grep -q '/rig_b' || fail "the publisher is not shown: $(rosnode info /stiffness_node)"
+within 20 "the publisher is not shown by rosnode info" sh -c "rosnode info /stiffness_node | grep -q '/rig_b'"
 kill -9 $rig
 start_rig rig_c
 within 20 "a publisher that starts under the new master is not heard" is_fresh

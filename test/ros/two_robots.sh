@@ -1,31 +1,8 @@
 #!/usr/bin/env bash
 # two_robots.launch: each robot has topics and frames of its own, and what happens to one leaves the other alone; and
 # roswtf, who looks at all of it, finds nothing of ours wrong. BUILD_DIR SOURCE_DIR
-set -euo pipefail
-build=$1 source=$2 
-set +u; source "$build/devel/setup.bash"; set -u
-export ROS_HOSTNAME=localhost
-port=11911
-while (: </dev/tcp/127.0.0.1/$port) 2>/dev/null; do port=$((port + 1)); done
-export ROS_MASTER_URI=http://localhost:$port
-work=$(mktemp -d)
-pids=()
-cleanup() {
-  for pid in "${pids[@]}"; do kill "$pid" 2>/dev/null || true; done
-  wait || true
-  rm -rf "$work"
-}
-trap cleanup EXIT
+source "$2/test/support/ros_script.sh"
 
-fail() { echo "failed: $1"; tail -n 20 "$work"/*.log; exit 1; }
-now() { date +%s.%N; }
-since() { awk -v a="$1" -v b="$(now)" 'BEGIN { printf "%.2f s", b - a }'; }
-# within SECONDS WHAT COMMAND...: waits until the command succeeds.
-within() {
-  local end=$((SECONDS + $1)) what=$2
-  shift 2
-  until "$@" >/dev/null 2>&1; do [ $SECONDS -lt $end ] || fail "$what"; sleep 0.05; done
-}
 echo_one() { timeout 10 rostopic echo -n 1 "$1"; }
 is() { echo_one "/$1/stiffness_node/estimate/stale" | grep -q "$2"; }  # ROBOT True|False
 

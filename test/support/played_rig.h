@@ -2,14 +2,12 @@
 // A rig that a test plays to stiffness_node: right pressures and poses, until the test spoils them; and what the node
 // says about them.
 
-#include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
-
-#include <map>
 
 #include "live_stiffness/estimation/registration.h"
 #include "live_stiffness/rod/scene_file.h"
 #include "support/driven_node.h"
+#include "support/watched_diagnostics.h"
 
 namespace live_stiffness {
 
@@ -23,7 +21,6 @@ class PlayedRigTest : public ::testing::Test {
         watched_("/stiffness_node"),
         pressures_(node_.advertise<ChamberPressures>("chamber_pressures", 10)),
         poses_(node_.advertise<geometry_msgs::PoseStamped>("aurora_pose", 10)),
-        diagnostics_(node_.subscribe("/diagnostics", 100, &PlayedRigTest::onDiagnostics, this)),
         errors_(node_.subscribe<TrackingError>("/stiffness_node/tracking_error", 100,
                                                [this](const TrackingError::ConstPtr&) { ++error_count_; })) {}
 
@@ -52,15 +49,11 @@ class PlayedRigTest : public ::testing::Test {
                            << "; Solver: " << text("Solver");
     return recovered;
   }
-  // Level of a task, and a word of its text; forgotten by forget().
+  // Level of a task, and a word of its text.
   bool is(const std::string& task, Level level, const std::string& word = "") const {
-    const auto found = levels_.find("stiffness_node: " + task);
-    return found != levels_.end() && found->second == level && text(task).find(word) != std::string::npos;
+    return diagnostics_.level(task) == level && text(task).find(word) != std::string::npos;
   }
-  std::string text(const std::string& task) const {
-    const auto found = texts_.find("stiffness_node: " + task);
-    return found == texts_.end() ? "" : found->second;
-  }
+  std::string text(const std::string& task) const { return diagnostics_.text(task); }
 
   const Pressures bent_ = pressuresOf({60e3, 60e3, 0.0, 0.0, 0.0, 0.0});
   const Pressures other_ = pressuresOf({0.0, 0.0, 90e3, 90e3, 30e3, 30e3});
@@ -70,19 +63,11 @@ class PlayedRigTest : public ::testing::Test {
   Registration registration_;
   Watched watched_;
   ros::Publisher pressures_, poses_;
-  ros::Subscriber diagnostics_, errors_;
+  WatchedDiagnostics diagnostics_;
+  ros::Subscriber errors_;
   long error_count_ = 0;
 
  private:
-  void onDiagnostics(const diagnostic_msgs::DiagnosticArray::ConstPtr& message) {
-    for (const auto& status : message->status) {
-      levels_[status.name] = status.level;
-      texts_[status.name] = status.message;
-    }
-  }
-
-  std::map<std::string, int> levels_;
-  std::map<std::string, std::string> texts_;
   int noise_ = 0;
 };
 
