@@ -67,13 +67,18 @@ int main(int argc, char** argv) {
     const RigSample& sample = rig[i % rig.size()];
     rosgraph_msgs::Clock now;
     now.clock = stamp;
-    clock.publish(now);
-    pressures.publish(toPressures(sample.measured_channels, stamp));
     Pose X_AS = *sample.X_AS;
     X_AS.p.x() += 1e-9 * static_cast<double>(i % 1000);
-    poses.publish(toPoseStamped(X_AS, stamp, "aurora"));
+    const auto publish = [&] {
+      clock.publish(now);
+      pressures.publish(toPressures(sample.measured_channels, stamp));
+      poses.publish(toPoseStamped(X_AS, stamp, "aurora"));
+    };
+    // Again and again: samples may overtake the clock (roscpp subscribes to it without TCP_NODELAY), and are then taken
+    // to be stamped by another.
     const ros::Time answered = stamp - ros::Duration(kAhead / kRate);
-    if (i > kAhead && !waitFor([&] { return watched.error && watched.error->header.stamp >= answered; }, 2.0)) ++unanswered;
+    const auto is_answered = [&] { return i < kAhead || (watched.error && watched.error->header.stamp >= answered); };
+    if (!publishUntil(publish, is_answered, 2.0)) ++unanswered;
     if (i % report == 0 || i + 1 == total) {
       const long resident = residentKilobytes(pid);
       if (resident < 0) {
