@@ -80,22 +80,22 @@ void stationsAt(const Backbone& backbone, int segment, const double* fractions, 
     if (batch.size > 0) backbone.passes->stations(elements[element].state, batch);
     batch.size = 0;
   };
-  for (size_t i = 0; i < size; ++i) {
-    const double along = fractions[i] > 0.0 ? std::min(fractions[i], 1.0) * count : 0.0;  // NaN: the base
+  for (Station *station = out, *end = out + size; station != end; ++station) {
+    const double given = *fractions++, along = given > 0.0 ? std::min(given, 1.0) * count : 0.0;  // NaN: the base
     const int k = std::min(static_cast<int>(along), count - 1);
     const double fraction = along - k;
-    out[i].stretch = stretch;
+    station->stretch = stretch;
     if (fraction >= 1.0) {
-      out[i].X_BS = elements[k].X_end();
-      unpack(elements[k].state.end_compliance, out[i].compliance);
+      station->X_BS = elements[k].X_end();
+      unpack(elements[k].state.end_compliance, station->compliance);
     } else if (elements[k].state.station_error > accuracy && fraction > 0.0) {
-      stationOfPiece(backbone, elements[k], fraction, loaded, out[i]);
+      stationOfPiece(backbone, elements[k], fraction, loaded, *station);
     } else {
       if (k != element || batch.size == kStationBatch) flush();
       element = k;
       batch.fraction[batch.size] = fraction;
-      batch.pose[batch.size] = out[i].X_BS.R.data();
-      batch.compliance[batch.size++] = out[i].compliance.data();
+      batch.pose[batch.size] = station->X_BS.R.data();
+      batch.compliance[batch.size++] = station->compliance.data();
     }
   }
   flush();

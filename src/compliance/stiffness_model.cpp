@@ -66,12 +66,18 @@ SolveStatus StiffnessModel::stepLoads(PressuresRef pressures, Backbone& backbone
 
 StiffnessSolution StiffnessModel::solve(PressuresRef pressures, const Wrench& tip_wrench,
                                         StiffnessWorkspace& workspace) const {
-  StiffnessSolution solution;
-  solution.status = checkInput(pressures, tip_wrench);
-  if (!solution.status.ok()) return solution;
+  StiffnessSolution solution{StiffnessSolution::Unset()};
+  solution.status = solveInto(solution, pressures, tip_wrench, workspace);
+  if (!solution.status.ok()) solution.clearCompliances();
+  return solution;
+}
+
+SolveStatus StiffnessModel::solveInto(StiffnessSolution& solution, PressuresRef pressures, const Wrench& tip_wrench,
+                                      StiffnessWorkspace& workspace) const {
   Backbone& backbone = workspace.backbone_;
-  solution.status = stepLoads(pressures, backbone);
-  if (!solution.status.ok()) return solution;
+  SolveStatus status = checkInput(pressures, tip_wrench);
+  if (status.ok()) status = stepLoads(pressures, backbone);
+  if (!status.ok()) return status;
 
   workspace.loaded_ = options_.external_loads && (has_weight_ || !tip_wrench.isZero(0.0));
   if (workspace.loaded_) {
@@ -79,14 +85,8 @@ StiffnessSolution StiffnessModel::solve(PressuresRef pressures, const Wrench& ti
     const DeadLoads loads{scene_.gravity.value_or(Vector3::Zero()), tip_wrench};
     const StaticsReport report = workspace.statics_.solve(loads, backbone);
     solution.iterations = report.iterations;
-    if (!report.converged) {
-      solution.status = {SolveCode::kNotConverged, -1, report.residual};
-      return solution;
-    }
-    if (!report.stable) {
-      solution.status = {SolveCode::kUnstable, -1, report.stable_share};
-      return solution;
-    }
+    if (!report.converged) return {SolveCode::kNotConverged, -1, report.residual};
+    if (!report.stable) return {SolveCode::kUnstable, -1, report.stable_share};
     solution.buckled = report.buckled;
     solution.numerical_error = report.relativeError() * report.amplification;
     const Chain& chain = workspace.statics_.chain();
@@ -103,9 +103,8 @@ StiffnessSolution StiffnessModel::solve(PressuresRef pressures, const Wrench& ti
   // A sum is finite only if all its terms are.
   double sum = solution.X_BT.p.sum() + solution.material_compliance.sum();
   if (workspace.loaded_) sum += solution.compliance.sum();
-  if (!std::isfinite(sum))
-    solution.status = {SolveCode::kNotConverged, -1, 0.0};
-  return solution;
+  if (!std::isfinite(sum)) return {SolveCode::kNotConverged, -1, 0.0};
+  return {};
 }
 
 Station StiffnessModel::station(const StiffnessWorkspace& workspace, int segment, double fraction) const {

@@ -17,6 +17,9 @@ LIVE_STIFFNESS_INLINE void copy(const double (&from)[9], double (&to)[9]) {
 LIVE_STIFFNESS_INLINE void copy(const PackedRow& from, PackedRow& to) {
   for (int i = 0; i < kPackedRow / kLanes; ++i) store(to, i, load(from, i));
 }
+LIVE_STIFFNESS_INLINE void add(const PackedRow& more, PackedRow& to) {
+  for (int i = 0; i < kPackedRow / kLanes; ++i) store(to, i, load(to, i) + load(more, i));
+}
 
 constexpr double kIdentity[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}, kNothing[3] = {};
 
@@ -180,9 +183,10 @@ struct ChainPasses {
   }
 
   static LIVE_STIFFNESS_INLINE void addCompliance(ElementState& e) {
-    for (int i = 0; i < kPackedRow / kLanes; ++i)
-      store(e.end_compliance, i, load(e.start_compliance, i) + load(e.compliance, i));
-    shift(e.offset_end, e.end_compliance);
+    copy(e.start_compliance, e.end_compliance);
+    if (!e.is_arc) add(e.compliance, e.end_compliance);
+    if (!isNothing(e.end_compliance)) shiftOne(e.offset_end, e.end_compliance);
+    if (e.is_arc) add(e.compliance, e.end_compliance);  // about its end as it is
   }
 
   // Material compliance of what a walk has passed, about where it is.
@@ -206,7 +210,7 @@ struct ChainPasses {
     LIVE_STIFFNESS_INLINE const PackedRow* moved(const double (&p)[3], PackedRow& to) const {
       const double d[3] = {p[0] - about_[0], p[1] - about_[1], p[2] - about_[2]};
       copy(*before_, to);
-      if (d[0] != 0.0 || d[1] != 0.0 || d[2] != 0.0) shift(d, to);
+      if (d[0] != 0.0 || d[1] != 0.0 || d[2] != 0.0) shiftOne(d, to);
       return &to;
     }
 

@@ -196,7 +196,10 @@ struct Material {
     Lanes3 g{row[kDenseRate], row[kDenseRate + 1], row[kDenseRate + 2]};
     if (e.unloaded) g = cayleyOfRotation((e.length * x) * splat(e.rest_curvature));
     const LanesMatrix R = splatMatrix(e.R_start) * cayley(g);
-    storeSections(e, s, v, R, {row[kDenseTangent], row[kDenseTangent + 1], row[kDenseTangent + 2]}, row);
+    const Lanes r[3] = {row[kDenseTangent], row[kDenseTangent + 1], row[kDenseTangent + 2]};
+    for (int i = 0; i < kPackedSize; ++i) row[i] += e.start_compliance[i];
+    shift(r, row);
+    storeSections(e, s, v, R, r, row);
   }
 };
 

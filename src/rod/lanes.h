@@ -73,6 +73,18 @@ LIVE_STIFFNESS_INLINE void storeAcross(const Lanes (&rows)[n], double* const* ou
   for (int i = 0; i < n; i += kLanes) storeSquareAcross(rows + i, out, i);
 }
 
+// The first lane of each row. In whole vectors, as far as they go: what reads vectors next would wait for numbers that
+// were stored one by one.
+template <int n>
+LIVE_STIFFNESS_INLINE void storeFirst(const Lanes (&rows)[n], double* out) {
+  for (int i = 0; i + kLanes <= n; i += kLanes) {
+    Lanes several{};
+    for (int lane = 0; lane < kLanes; ++lane) several[lane] = rows[i + lane][0];
+    storeUnaligned(out + i, several);
+  }
+  for (int i = n / kLanes * kLanes; i < n; ++i) out[i] = rows[i][0];
+}
+
 // The same back: rows[...][lane] = in[lane][...].
 template <int n>
 LIVE_STIFFNESS_INLINE void loadAcross(const double (*in)[n], Lanes* rows) {

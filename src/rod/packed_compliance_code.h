@@ -36,13 +36,16 @@ LIVE_STIFFNESS_INLINE void shift(const T (&d)[3], T* at) {
   P[5] = P[5] - (a[2][2] + b[2][2]);
 }
 
-// A batch of sections of an element goes out, one a lane. r: from the element's start, m; own: compliance from there to
-// the section, about the start.
+// One compliance, in a function of its own: most are not shifted, and need not pay for it.
+__attribute__((noinline)) void shiftOne(const double (&d)[3], PackedRow& at) { shift(d, at); }
+
+// True at the base: there each direction can bend.
+LIVE_STIFFNESS_INLINE bool isNothing(const PackedRow& compliance) { return compliance[15] == 0.0; }
+
+// A batch of sections of an element goes out, one a lane. r: from the element's start, m; at: compliance of everything
+// before the section, about it.
 LIVE_STIFFNESS_INLINE void storeSections(const ElementState& e, const StationBatch& s, int v, const LanesMatrix& R,
-                                         const Lanes (&r)[3], const Lanes* own) {
-  Lanes at[kPackedSize];
-  for (int i = 0; i < kPackedSize; ++i) at[i] = e.start_compliance[i] + own[i];
-  shift(r, at);
+                                         const Lanes (&r)[3], const Lanes* at) {
   const Lanes pose[12] = {R.x.x, R.x.y, R.x.z, R.y.x, R.y.y, R.y.z, R.z.x, R.z.y, R.z.z, e.p_start[0] + r[0],
                           e.p_start[1] + r[1], e.p_start[2] + r[2]};
   const Lanes *P = at, *K = at + 6, *W = at + 15;

@@ -92,22 +92,18 @@ RestStateOf<T> LoadStepperOf<T>::fixedSteps(const Actuation& on, int steps) cons
   using std::sqrt;
   T stretch(1.0), x(0.0), y(0.0);
   const T step = 1.0 / (static_cast<double>(steps) * section_.youngsModulus()), pull = step * on.force;
+  const T moment_x = on.moment.x(), moment_y = on.moment.y();
   for (int i = 0; i < steps; ++i) {
     const auto scaled = section_.scaled(stretch);
     if (!scaled.isValid()) return load_stepping::outOfRange(stretch);
     // I^-1 dT, with 1 / sqrt(lam) as the pitch radius shrinks.
     const T by_moment = step * stretch * sqrt(stretch) / scaled.determinant();
-    x += by_moment * (scaled.yy * on.moment.x() - scaled.xy * on.moment.y());
-    y += by_moment * (scaled.xx * on.moment.y() - scaled.xy * on.moment.x());
+    x += by_moment * (scaled.yy * moment_x - scaled.xy * moment_y);
+    y += by_moment * (scaled.xx * moment_y - scaled.xy * moment_x);
     stretch += pull * stretch * stretch / scaled.area;  // lam dF / (E A)
   }
   if (!section_.isValidAt(stretch)) return load_stepping::outOfRange(stretch);
-  RestStateOf<T> state;
-  state.stretch = stretch;
-  state.curvature.x() = x;
-  state.curvature.y() = y;
-  state.c = section_.complianceDensity(stretch);
-  return state;
+  return {stretch, Vector3Of<T>(x, y, T(0.0)), section_.complianceDensity(stretch)};
 }
 
 // The same with the stretch law and the stiffness that the pressures reached so far add.

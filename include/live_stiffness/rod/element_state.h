@@ -69,12 +69,13 @@ struct ElementState {
   double column_change;      // of the last pass, relative
   double column_truncation;  // square of the highest Legendre coefficient of their rate, as it turns the end, relative
 
-  // Plane of an arc: curvature (1/m), axis in the axes of its start, and in those of B its first direction across, its
-  // axis and its first tangent. Set by placeArc().
-  double arc_curvature, arc_axis[2], arc_q1[3], arc_q2[3], arc_q3[3];
+  // Plane of an arc: curvature (1/m) and its square, axis in the axes of its start, and in those of B its first direction
+  // across, its axis and its first tangent. Set by placeArc().
+  double arc_curvature, arc_square, arc_axis[2], arc_q1[3], arc_q2[3], arc_q3[3];
 
-  // Material compliance of the element about its start, and what stations() needs. Filled by placeArc(), exact up to
-  // kMaxUnloadedBending, which sets no nodes; or by material(), on a Gauss grid of its own: one row a node.
+  // Material compliance of the element about its start (of an arc: about its end), and what stations() needs. Filled by
+  // placeArc(), exact up to kMaxUnloadedBending, which sets no nodes; or by material(), on a Gauss grid of its own: one
+  // row a node.
   PackedRow compliance;
   bool is_arc, unloaded;
   int dense_nodes;

@@ -19,7 +19,7 @@ using Matrix2Of = Eigen::Matrix<T, 2, 2>;
 template <class T>
 using Matrix3Of = Eigen::Matrix<T, 3, 3>;
 template <class T>
-using PressuresRefOf = Eigen::Ref<const Eigen::Matrix<T, Eigen::Dynamic, 1>>;  // of double: PressuresRef
+using PressuresRefOf = const Eigen::Ref<const Eigen::Matrix<T, Eigen::Dynamic, 1>>&;  // of double: PressuresRef
 
 // Parallel circular chambers on one pitch circle. Shi et al. section 3.2.
 // The braid keeps the chamber radius r_P; the pitch radius shrinks with the section, as 1/sqrt(stretch).
