@@ -106,11 +106,11 @@ def error_against_time(rows, start, folder):
 def histogram(bins, summary, folder):
     figure, ax = plt.subplots(figsize=(7.5, 3.4), layout="constrained")
     updates = [row for row in bins if row["which"] == "updates"]
-    loops = [row for row in bins if row["which"] == "loops"]
+    repeats = [row for row in bins if row["which"] == "repeats"]
     ax.bar([row["from_us"] for row in updates], [row["count"] for row in updates],
            width=[row["to_us"] - row["from_us"] for row in updates], align="edge", color="#c1121f", label="updates")
-    ax.plot([row["from_us"] for row in loops], [row["count"] for row in loops], drawstyle="steps-post", color="#222222",
-            linewidth=0.9, label="a fixed loop as long: the machine's own tail")
+    ax.plot([row["from_us"] for row in repeats], [row["count"] for row in repeats], drawstyle="steps-post", color="#222222",
+            linewidth=0.9, label="one update again and again: the machine's own tail")
     ax.legend(loc="center right")
     ax.set_xscale("log")
     ax.set_yscale("log")

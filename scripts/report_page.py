@@ -136,7 +136,7 @@ def main():
         textbook_us=us(method(rows, "textbook")["median_us"]), all_methods=all_methods(rows),
         updates="%d" % distribution["updates"]["updates"], quantiles=quantiles(distribution),
         preemptions="%d" % distribution["updates"]["preemptions"],
-        loop_preemptions="%d" % distribution["loops"]["preemptions"],
+        repeat_preemptions="%d" % distribution["repeats"]["preemptions"],
         stations=table(["accuracy", "5 stations", "25 stations"],
                        [["%g" % accuracy] + [us(row["median_us"]) for row in stations if row["accuracy"] == accuracy]
                         for accuracy in report_targets.TIMES]),

@@ -4,7 +4,7 @@
 //   methods.csv        every method, one and two segments, with and without gravity, cold and warm
 //   stations.csv       the library with 5 and 25 stations of material compliance
 //   segments.csv       cost against the number of segments
-//   distribution.csv   histograms of single warm updates (accuracy 1e-6) and of a fixed loop as long;
+//   distribution.csv   histograms of single warm updates (accuracy 1e-6) and of one again and again;
 //                      distribution_summary.csv: quantiles
 //   estimates.csv      error estimate against true error over random scenes; estimate_summary.csv: shares
 //   build.csv          compiler and flags
@@ -186,33 +186,26 @@ void writeBins(CsvFile& csv, const std::string& which, const std::vector<float>&
     csv.row(which, std::pow(10.0, bin / kBinsPerDecade), std::pow(10.0, (bin + 1) / kBinsPerDecade), count);
 }
 
-// Beside the updates a loop that always does the same and takes as long: its tail is the machine's, not the solver's.
+// Beside the updates the step between two pressures, to and fro: always the same work, so that its tail is the machine's
+// and not the solver's. (A loop that waits for itself would not do: it hardly feels what else the processor's core is at.)
 void reportDistribution(const std::string& folder, const Effort& effort) {
-  const std::vector<Pressures> path = pressurePath(1);
-  TimedMethod timed(std::make_unique<LibraryMethod>("library", paperScene(1), accurateTo(1e-6)), path, false);
-  for (int i = 0; i < 1000; ++i) timed.update();
-  SingleTimes updates = timeOneByOne("single updates", effort.distribution_updates, [&] { timed.update(); });
-  volatile double kept = 1.0;
-  const auto loop = [&](int rounds) {
-    double x = kept;
-    for (int i = 0; i < rounds; ++i) x = 0.5 * x + 0.5;
-    kept = x;
+  const std::vector<Pressures> path = pressurePath(1), step = {path[20], path[21]};
+  const auto timesAlong = [&](const std::string& what, const std::vector<Pressures>& pressures) {
+    TimedMethod timed(std::make_unique<LibraryMethod>("library", paperScene(1), accurateTo(1e-6)), pressures, false);
+    for (int i = 0; i < 1000; ++i) timed.update();
+    return timeOneByOne(what, effort.distribution_updates, [&] { timed.update(); });
   };
-  constexpr int kTrialRounds = 10000;
-  SingleTimes trial = timeOneByOne("trial loops", 1000, [&] { loop(kTrialRounds); });
-  const double median = quantile(updates.all, 0.5);
-  const int rounds = static_cast<int>(kTrialRounds * median / quantile(trial.all, 0.5));
-  SingleTimes loops = timeOneByOne("loops", effort.distribution_updates, [&] { loop(rounds); });
+  SingleTimes updates = timesAlong("single updates", path), repeats = timesAlong("the same update", step);
 
   CsvFile csv(folder, "distribution.csv", "which,from_us,to_us,count");
   writeBins(csv, "updates", updates.all);
-  writeBins(csv, "loops", loops.all);
+  writeBins(csv, "repeats", repeats.all);
   CsvFile summary(folder, "distribution_summary.csv",
                   "which,updates,preemptions,median_us,p90_us,p99_us,p999_us,max_us,p99_over_median,p999_over_median");
   writeQuantiles(summary, "updates", updates.all, updates.preempted);
   writeQuantiles(summary, "updates not preempted", updates.undisturbed, 0);
-  writeQuantiles(summary, "loops", loops.all, loops.preempted);
-  writeQuantiles(summary, "loops not preempted", loops.undisturbed, 0);
+  writeQuantiles(summary, "repeats", repeats.all, repeats.preempted);
+  writeQuantiles(summary, "repeats not preempted", repeats.undisturbed, 0);
 }
 
 void reportEstimates(const std::string& folder, const Effort& effort) {
