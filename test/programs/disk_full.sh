@@ -37,7 +37,13 @@ fails() {
 "$programs/simulate_bag" "$scene" "$work/session.bag" --seconds 60 --channels 3 2>/dev/null
 fails "$disk/out.bag" "$programs/simulate_bag" "$scene" "$disk/out.bag" --seconds 60
 fails "$disk/out.bag" "$programs/replay" "$work/session.bag" --scene "$scene" -o "$disk/out.bag"
+awk 'BEGIN { print "time_s,pressure_1_pa,pressure_2_pa,pressure_3_pa,tip_x_m,tip_y_m,tip_z_m,tip_qw,tip_qx,tip_qy,tip_qz"
+  for (i = 0; i < 4000; ++i) print i / 40 ",1e4,0,0," 1e-6 * i ",0,0.05,1,0,0,0" }' >"$work/recording.csv"
+fails "$disk/recording.bag" "$programs/recording_to_bag" "$work/recording.csv" "$disk/recording.bag"
 fails "$disk/map.csv" "$programs/stiffness_map" "$scene" --grid 0:1e5:4 -o "$disk/map.csv"
+"$programs/register_recording" "$scene" "$work/session.bag" "$work/registration.yaml" >/dev/null 2>&1
+fails "$disk/wrench.csv" "$programs/estimate_wrench" "$scene" "$work/session.bag" --registration "$work/registration.yaml" \
+  -o "$disk/wrench.csv"
 
 # Small files: on a disk without a byte left, over one that is there.
 echo "what stood there before" >"$work/before"
@@ -49,3 +55,4 @@ fails "$disk/out.yaml" "$programs/calibrate" "$scene" "$work/session.bag" --para
 rm "$work/before"
 
 fails "$work/none" sh -c "printf 'p_1_pa,p_2_pa,p_3_pa,p_4_pa,p_5_pa,p_6_pa\n0,0,0,0,0,0\n' | '$programs/stiffness_solve' '$scene' >/dev/full"
+fails "$work/none" sh -c "printf 'l_1_m,l_2_m,l_3_m,l_4_m,l_5_m,l_6_m\\n0.41,0.4,0.4,0.4,0.4,0.4\\n' | '$programs/parallel_solve' '$source/config/scenes/stewart_gough.yaml' >/dev/full"
