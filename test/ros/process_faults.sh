@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Faults of processes, each with real nodes: the master dies and comes back, a publisher is killed and comes back under
-# another name, signals, kill -9 under respawn. BUILD_DIR SOURCE_DIR
+# another name or with another type, signals, kill -9 under respawn. BUILD_DIR SOURCE_DIR
 # Times are printed, not asserted: a busy machine has its own.
 source "$2/test/support/ros_script.sh"
 
@@ -33,6 +33,25 @@ start_rig rig_b
 begin=$(now)
 within 20 "the publisher that came back is not heard" is_fresh
 echo "  heard after $(since "$begin")"
+
+# A publisher that was killed is taken to be coming back, with the same type, until the master forgets it.
+forget_killed() { echo y | rosnode cleanup >>"$work/cleanup.log" 2>&1; }
+echo "- a publisher is killed and forgotten, another comes with messages of another type, and then the first type again"
+kill -9 $rig
+within 20 "pressures of a publisher that was killed are not stale" is_stale
+forget_killed
+rostopic pub -r 40 /chamber_pressures std_msgs/Float64MultiArray "data: [50000.0, 50000.0, 0.0, 0.0, 10000.0, 10000.0]" \
+  >"$work/array.log" 2>&1 &
+array=$!
+pids+=("$array")
+within 20 "pressures of another type are not heard" is_fresh
+within 20 "other pressures than were sent" \
+  sh -c "timeout 10 rostopic echo -n 1 /stiffness_node/estimate/pressure | grep -q 50000"
+kill -9 $array
+within 20 "pressures of a publisher that was killed are not stale" is_stale
+forget_killed
+start_rig rig_b
+within 20 "pressures of the first type are not heard any more" is_fresh
 
 echo "- the master is killed and comes back, with nothing on its parameter server"
 kill -9 $master; wait $master 2>/dev/null || true
