@@ -21,6 +21,15 @@ void RegistrationService::restart(std::shared_ptr<const StiffnessModel> model) {
   model_ = std::move(model);
 }
 
+// To copy the past takes milliseconds, which no estimate should be late by.
+void RegistrationService::addPressures(PressuresRef pressures, const ros::Time& stamp) {
+  waiting_.emplace_back(stamp.toSec(), pressures);
+  const std::unique_lock<std::mutex> lock(mutex_, std::try_to_lock);
+  if (!lock.owns_lock()) return;
+  for (const auto& [time, of_then] : waiting_) buffer_->addPressures(of_then, time);
+  waiting_.clear();
+}
+
 void RegistrationService::sendTransform(const Registration& registration) {
   broadcaster_.sendTransform(
       toTransform(registration.X_AB, ros::Time::now(), parameters_.tracker_frame, parameters_.frames.base));

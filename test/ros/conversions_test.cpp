@@ -91,7 +91,7 @@ topic_tools::ShapeShifter withBytes(std::vector<uint8_t> bytes, const std::strin
   shape.morph(md5.empty() ? ros::message_traits::MD5Sum<Message>::value() : md5,
               ros::message_traits::DataType<Message>::value(), ros::message_traits::Definition<Message>::value(), "");
   ros::serialization::IStream in(bytes.data(), bytes.size());
-  shape.read(in);
+  if (!bytes.empty()) shape.read(in);  // of nothing, topic_tools copies zero bytes to a null pointer
   return shape;
 }
 

@@ -27,9 +27,10 @@ echo "- not permitted"
 deny=()
 [ "$(id -u)" != 0 ] || deny=(setpriv --bounding-set=-sys_nice,-ipc_lock --inh-caps=-sys_nice,-ipc_lock)
 start_node denied.log prlimit --rtprio=0:0 --memlock=65536:65536 "${deny[@]}"
-for text in "realtime_priority = 20 is not permitted.*rtprio 20" "memory cannot be locked, going on without"; do
-  grep -q "$text" "$work/denied.log" || fail "no warning '$text'"
-done
+grep -q "realtime_priority = 20 is not permitted.*rtprio 20" "$work/denied.log" || fail "no warning of the priority"
+locks=true
+[ -z "${ASAN_OPTIONS:-}" ] || locks=false  # sanitizers make mlockall() do nothing
+! $locks || grep -q "memory cannot be locked, going on without" "$work/denied.log" || fail "no warning of the memory"
 end_node
 
 if ! chrt -f 20 true 2>/dev/null || [ "$(id -u)" != 0 ]; then
@@ -41,6 +42,5 @@ start_node permitted.log
 ! grep -qE "not permitted|cannot be locked" "$work/permitted.log" || fail "a warning although it is permitted"
 thread=$(grep -l '^live_estimate$' /proc/$node/task/*/comm | cut -d / -f 5)
 chrt -p "$thread" | grep -q "SCHED_FIFO" || fail "estimates are not made under SCHED_FIFO"
-# Sanitizers make mlockall() do nothing.
-[ -n "${ASAN_OPTIONS:-}" ] || [ "$(awk '/VmLck/ { print $2 }' /proc/$node/status)" -gt 0 ] || fail "nothing is locked in memory"
+! $locks || [ "$(awk '/VmLck/ { print $2 }' /proc/$node/status)" -gt 0 ] || fail "nothing is locked in memory"
 end_node

@@ -25,7 +25,7 @@ class RegistrationServiceTest : public ::testing::Test {
     return response;
   }
 
-  // Asks until the buffer holds a whole period of the rig's program, some 6 s at 40 Hz, or 20 s have passed.
+  // Asks until the buffer holds a whole period of the rig's program, some 6 s at 40 Hz, or 60 s have passed.
   Register::Response askOnceMoved(const Register::Request& request, int samples = 260) {
     Register::Response response;
     EXPECT_TRUE(waitFor([&] {
@@ -34,7 +34,7 @@ class RegistrationServiceTest : public ::testing::Test {
       only_look.file.clear();
       const Register::Response seen = ask(only_look);
       return seen.fitted && seen.samples >= samples && seen.base_rotation_determined && seen.sensor_offset_determined;
-    })) << "not enough samples: " << ask(request).message;
+    }, 60.0)) << "not enough samples: " << ask(request).message;
     return ask(request);
   }
 

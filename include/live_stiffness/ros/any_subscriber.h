@@ -22,12 +22,11 @@ class AnyMessage : public ros::SubscriptionCallbackHelper {
   using TakeBytes = std::function<void(const topic_tools::ShapeShifter& message, const std::string& publisher)>;
 
   AnyMessage(TakeOwn take_own, TakeBytes take_bytes)
-      : take_own_(std::move(take_own)), take_bytes_(std::move(take_bytes)), reader_(Reader::Callback()) {}
+      : take_own_(std::move(take_own)), take_bytes_(std::move(take_bytes)) {}
 
   // Nothing, and take_bytes is told, if a message that says to be an Own is not a whole one.
   ros::VoidConstPtr deserialize(const ros::SubscriptionCallbackHelperDeserializeParams& params) override {
-    const auto bytes = boost::static_pointer_cast<const topic_tools::ShapeShifter>(reader_.deserialize(params));
-    if (!bytes) return nullptr;
+    const topic_tools::ShapeShifter::ConstPtr bytes = bytesOf(params);
     if (bytes->getDataType() != ros::message_traits::DataType<Own>::value())
       return boost::shared_ptr<const Own>(new Own, Carrier{bytes});
     if (isWhole(*bytes)) return bytes->instantiate<Own>();
@@ -45,15 +44,22 @@ class AnyMessage : public ros::SubscriptionCallbackHelper {
   bool hasHeader() override { return false; }
 
  private:
-  using Reader = ros::SubscriptionCallbackHelperT<const topic_tools::ShapeShifter::ConstPtr&>;
   struct Carrier {
     topic_tools::ShapeShifter::ConstPtr bytes;
     void operator()(const Own* message) const { delete message; }
   };
 
+  static topic_tools::ShapeShifter::ConstPtr bytesOf(const ros::SubscriptionCallbackHelperDeserializeParams& params) {
+    const auto bytes = boost::make_shared<topic_tools::ShapeShifter>();
+    ros::M_string& header = *params.connection_header;
+    bytes->morph(header["md5sum"], header["type"], header["message_definition"], header["latching"]);
+    ros::serialization::IStream in(params.buffer, params.length);
+    if (params.length > 0) bytes->read(in);  // of nothing, topic_tools copies zero bytes to a null pointer
+    return bytes;
+  }
+
   TakeOwn take_own_;
   TakeBytes take_bytes_;
-  Reader reader_;
 };
 
 // The callbacks must not be called after what they refer to is gone: shut the subscriber down first.

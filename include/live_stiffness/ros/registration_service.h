@@ -9,6 +9,8 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "live_stiffness/estimation/registration_buffer.h"
 #include "live_stiffness/ros/node_parameters.h"
@@ -25,11 +27,9 @@ class RegistrationService {
                       const NodeParameters& parameters, OnApply on_apply);
   RegistrationService(const RegistrationService&) = delete;  // callbacks refer to it
 
-  // As those of RegistrationBuffer. time: s, on the clock of the pressures.
-  void addPressures(PressuresRef pressures, const ros::Time& stamp) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    buffer_->addPressures(pressures, stamp.toSec());
-  }
+  // As those of RegistrationBuffer. time: s, on the clock of the pressures. Pressures come from one thread, which never
+  // waits here.
+  void addPressures(PressuresRef pressures, const ros::Time& stamp);
   void addPose(const Pose& X_AS, const Wrench& tip_wrench, bool in_contact, double time) {
     const std::lock_guard<std::mutex> lock(mutex_);
     buffer_->addPose(X_AS, tip_wrench, in_contact, time);
@@ -48,6 +48,7 @@ class RegistrationService {
 
   const NodeParameters& parameters_;
   OnApply on_apply_;
+  std::vector<std::pair<double, Pressures>> waiting_;  // time, s, and pressures that came while the past was being copied
   std::mutex mutex_;  // of these two
   std::shared_ptr<const StiffnessModel> model_;
   std::unique_ptr<RegistrationBuffer> buffer_;
