@@ -11,6 +11,7 @@
 
 #include "live_stiffness/analysis/stiffness_finder.h"
 #include "live_stiffness/rod/scene_file.h"
+#include "map_arguments.h"
 #include "map_table.h"
 #include "progress_bar.h"
 
@@ -21,62 +22,7 @@ namespace {
 
 constexpr int kExitOk = 0, kExitNotReached = 1, kExitUsage = 2;
 
-struct Arguments {
-  std::string scene, model, stepping, criterion = "largest_eigenstiffness", compliance = "tangent", output = "-", npy;
-  std::string channel_of_chamber, find, direction = "x", at;
-  std::vector<std::string> grid;
-  double accuracy = 1e-6, max_bar = 1.0, tolerance_mm = 0.1;
-  long random = 0;
-  std::uint64_t seed = 1;
-  int channels = 0, threads = 0, starts = 24;
-};
-
-// Numbers between separators; false unless all of the text is.
-bool readNumbers(const std::string& text, char separator, std::vector<double>& numbers) {
-  const char* rest = text.c_str();
-  while (true) {
-    char* end = nullptr;
-    numbers.push_back(std::strtod(rest, &end));
-    if (end == rest) return false;
-    if (*end == '\0') return true;
-    if (*end != separator) return false;
-    rest = end + 1;
-  }
-}
-
-std::vector<PressureRange> readRanges(const Arguments& arguments, FaultList& faults) {
-  std::vector<PressureRange> ranges;
-  const size_t wanted = arguments.random > 0 ? 2 : 3;
-  for (const std::string& text : arguments.grid) {
-    std::vector<double> numbers;
-    const bool good =
-        readNumbers(text, ':', numbers) && (numbers.size() == 3 || numbers.size() == wanted) &&
-        (numbers.size() < 3 || (numbers[2] >= 1.0 && numbers[2] <= 1e9 && numbers[2] == std::floor(numbers[2])));
-    if (good) ranges.push_back({numbers[0], numbers[1], numbers.size() > 2 ? static_cast<long>(numbers[2]) : 1});
-    else
-      faults.add("grid = " + text + ": must be FROM:TO:COUNT, gauge pressures in Pa and a whole number from 1 to 1e9" +
-                 (wanted == 2 ? "; with --random FROM:TO will do" : "") + ", for example 0:1e5:21");
-  }
-  return ranges;
-}
-
-ChannelMap readChannels(const Arguments& arguments, int chambers) {
-  if (arguments.channel_of_chamber.empty())
-    return ChannelMap::even(arguments.channels > 0 ? arguments.channels : chambers, chambers);
-  std::vector<double> numbers;
-  std::vector<int> channels;
-  bool good = readNumbers(arguments.channel_of_chamber, ',', numbers);
-  for (double number : numbers) {
-    good = good && number >= 0.0 && number < ChannelMap::kMaxChannels && number == std::floor(number);
-    channels.push_back(good ? static_cast<int>(number) : 0);
-  }
-  if (!good)
-    throw ConfigurationError("options", {"channel-of-chamber = " + arguments.channel_of_chamber +
-                                         ": must be the channel of each chamber from 0, for example 0,0,1,1,2,2"});
-  return ChannelMap(channels);
-}
-
-int sweep(const StiffnessModel& model, const ChannelMap& channels, const Arguments& arguments) {
+int sweep(const StiffnessModel& model, const ChannelMap& channels, const MapArguments& arguments) {
   FaultList faults("options");
   const std::vector<PressureRange> ranges = readRanges(arguments, faults);
   const StiffnessCriterion criterion = criterionNamed(arguments.criterion, faults);
@@ -134,7 +80,7 @@ void printFound(const char* title, const FoundPressures& found) {
               1e3 * found.miss, found.stiffness);
 }
 
-int find(const StiffnessModel& model, const ChannelMap& channels, const Arguments& arguments) {
+int find(const StiffnessModel& model, const ChannelMap& channels, const MapArguments& arguments) {
   FaultList faults("options");
   if (arguments.find != "stiffest" && arguments.find != "softest")
     faults.add("find = " + arguments.find + ": must be stiffest or softest");
@@ -186,7 +132,7 @@ const char kHelp[] =
 }  // namespace
 
 int main(int argc, char** argv) {
-  Arguments a;
+  MapArguments a;
   po::options_description options("Options");
   options.add_options()
     ("help,h", "print this and exit")

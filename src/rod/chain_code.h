@@ -2,67 +2,12 @@
 // Elements and rigid links one after the other, from base to tip. See docs/derivation.md, section 2 and 5.
 
 #include "rod/element_columns_code.h"
-#include "rod/element_material_code.h"
 #include "rod/element_shape_code.h"
+#include "rod/material_choice_code.h"
+#include "rod/place_code.h"
 
 namespace live_stiffness {
 namespace {
-
-LIVE_STIFFNESS_INLINE void copy(const double (&from)[3], double (&to)[3]) {
-  for (int i = 0; i < 3; ++i) to[i] = from[i];
-}
-LIVE_STIFFNESS_INLINE void copy(const double (&from)[9], double (&to)[9]) {
-  for (int i = 0; i < 9; ++i) to[i] = from[i];
-}
-LIVE_STIFFNESS_INLINE void copy(const PackedRow& from, PackedRow& to) {
-  for (int i = 0; i < kPackedRow / kLanes; ++i) store(to, i, load(from, i));
-}
-LIVE_STIFFNESS_INLINE void add(const PackedRow& more, PackedRow& to) {
-  for (int i = 0; i < kPackedRow / kLanes; ++i) store(to, i, load(to, i) + load(more, i));
-}
-
-constexpr double kIdentity[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}, kNothing[3] = {};
-
-// Where a walk along a chain has arrived: pose of the section, and loads there (base axes).
-class Place {
- public:
-  LIVE_STIFFNESS_INLINE Place(const double (&force)[3], const double (&moment)[3]) : n(&force), m(&moment) {}
-
-  LIVE_STIFFNESS_INLINE void enter(ElementState& e) const {
-    copy(*R, e.R_start);
-    copy(p, e.p_start);
-    copy(*n, e.n_start);
-    copy(*m, e.m_start);
-  }
-  LIVE_STIFFNESS_INLINE void leave(const ElementState& e) {
-    R = &e.R_end, n = &e.n_end, m = &e.m_end;
-    for (int i = 0; i < 3; ++i) p[i] = e.p_start[i] + e.offset_end[i];
-  }
-  // Over a rigid piece, axes of the section; weight: of its own, at its middle, N. Returns the piece in base axes and
-  // the force that turns with it.
-  struct Rigid {
-    double along[3], force[3];
-  };
-  LIVE_STIFFNESS_INLINE Rigid cross(const double (&piece)[3], const double (&weight)[3]) {
-    Rigid rigid;
-    double moment[3];
-    rotate(*R, piece, rigid.along);
-    for (int i = 0; i < 3; ++i) rigid.force[i] = (*n)[i] - 0.5 * weight[i];  // the weight has half the lever
-    crossInto(rigid.along, rigid.force[0], rigid.force[1], rigid.force[2], moment);
-    for (int i = 0; i < 3; ++i)
-      p[i] += rigid.along[i], own_n_[i] = (*n)[i] - weight[i], own_m_[i] = (*m)[i] - moment[i];
-    n = &own_n_, m = &own_m_;
-    return rigid;
-  }
-
-  const double (*R)[9] = &kIdentity;
-  double p[3] = {};
-  const double (*n)[3];
-  const double (*m)[3];
-
- private:
-  double own_n_[3], own_m_[3];
-};
 
 // Derivatives over a rigid piece, base axes; n: the force that turns with it.
 LIVE_STIFFNESS_INLINE void carryColumns(const double (&along)[3], const double (&n)[3], ElementColumns& at) {

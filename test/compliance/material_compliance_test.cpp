@@ -128,7 +128,7 @@ TEST(PlaceUnloaded, ArcsEqualQuadratureOfTheSameElements) {
     Matrix6 by_arcs, by_quadrature;
     placeUnloaded(solver.chain(), 1e-13, arcs, by_arcs);
     placeUnloaded(solver.chain(), 1e-13, quadrature, by_quadrature);
-    // Twelve nodes on 1.5 rad err by 2e-13 of their largest integrand (interpolationError in element_material_code.h).
+    // Twelve nodes on 1.5 rad err by 2e-13 of their largest integrand (interpolationError in material_choice_code.h).
     EXPECT_LT(complianceError(by_arcs, by_quadrature, 0.08), 1e-12) << bending;
     EXPECT_LT(poseError(arcs.X_BT, quadrature.X_BT, 0.08), 1e-14) << bending;
     for (int segment : {0, 1})

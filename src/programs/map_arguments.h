@@ -1,0 +1,33 @@
+#pragma once
+// What stiffness_map is told, and how it reads lists of numbers.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "live_stiffness/analysis/pressure_plan.h"
+#include "live_stiffness/checks.h"
+#include "live_stiffness/section/channel_map.h"
+
+namespace live_stiffness {
+
+struct MapArguments {
+  std::string scene, model, stepping, criterion = "largest_eigenstiffness", compliance = "tangent", output = "-", npy;
+  std::string channel_of_chamber, find, direction = "x", at;
+  std::vector<std::string> grid;
+  double accuracy = 1e-6, max_bar = 1.0, tolerance_mm = 0.1;
+  long random = 0;
+  std::uint64_t seed = 1;
+  int channels = 0, threads = 0, starts = 24;
+};
+
+// Numbers between separators; false unless all of the text is.
+bool readNumbers(const std::string& text, char separator, std::vector<double>& numbers);
+
+// Of --grid; faults are added.
+std::vector<PressureRange> readRanges(const MapArguments& arguments, FaultList& faults);
+
+// Of --channel-of-chamber or --channels. Throws ConfigurationError.
+ChannelMap readChannels(const MapArguments& arguments, int chambers);
+
+}  // namespace live_stiffness

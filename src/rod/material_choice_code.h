@@ -1,0 +1,69 @@
+#pragma once
+// Which grid gives the material compliance of an element as accurately as it is wanted, and how accurate it then is.
+
+#include "rod/element_arc_code.h"
+#include "rod/element_material_code.h"
+
+namespace live_stiffness {
+namespace {
+
+// Relative error of interpolation by kDense nodes in an element that bends by x rad, at its worst section. Arcs of any
+// bending up to kMaxUnloadedBending err by 0.6 to 1 of it.
+template <int kDense>
+LIVE_STIFFNESS_INLINE double interpolationError(double x_squared) {
+  double error = (kDense == 4 ? 2.0e-3 : kDense == 8 ? 2.7e-8 : 1.7e-13) * (1.0 + 0.25 * x_squared);
+  for (int i = 2; i < kDense; i += 2) error *= x_squared;
+  return error;
+}
+
+// The same of the integral over the whole element; of 8 nodes and more it is below rounding.
+template <int kDense>
+LIVE_STIFFNESS_INLINE double quadratureError(double x_squared) {
+  return kDense == 4 ? 5e-8 * x_squared * x_squared * x_squared * (1.0 + 0.25 * x_squared) : 0.0;
+}
+
+// On the cheapest grid that is accurate enough.
+template <int kStages>
+struct MaterialChoice {
+  static void material(ElementState& e, bool unloaded, double accuracy) {
+    constexpr double kImprovement = 20.0;
+    double bending = e.length * e.length * squaredNorm(e.rest_curvature), error = 0.0;
+    bool improved = false;
+    if (!unloaded) {
+      const GaussLegendre& t = gaussLegendre(kStages);
+      Lanes square{};
+      for (int v = 0; v < (kStages + kLanes - 1) / kLanes; ++v)
+        square += load(t.b, v) * dot(load(e.g_rate, v), load(e.g_rate, v));
+      bending = e.length * e.length * sum(square);
+      improved = e.interior_error > accuracy;
+      error = improved ? e.interior_error / kImprovement : e.interior_error;
+    }
+    e.is_arc = false;
+    if (kStages <= 4 && interpolationError<4>(bending) <= accuracy) run<4>(e, unloaded, bending, error, improved);
+    else if (interpolationError<8>(bending) <= accuracy) run<8>(e, unloaded, bending, error, improved);
+    else run<12>(e, unloaded, bending, error, improved);
+  }
+
+  static void stations(const ElementState& e, const StationBatch& s) {
+    for (int v = 0; kLanes * v < s.size; ++v) {
+      if (e.is_arc) arcStations(e, s, v);
+      else if (e.dense_nodes == 4) Material<4>::stations(e, s, v);
+      else if (e.dense_nodes == 8) Material<8>::stations(e, s, v);
+      else Material<12>::stations(e, s, v);
+    }
+  }
+
+ private:
+  template <int kDense>
+  static LIVE_STIFFNESS_INLINE void run(ElementState& e, bool unloaded, double bending, double collocation_error,
+                                        bool improved) {
+    e.dense_nodes = kDense;
+    e.unloaded = unloaded;
+    e.station_error = interpolationError<kDense>(bending) + collocation_error;
+    e.compliance_error = quadratureError<kDense>(bending);
+    Material<kDense>::material(e, kStages, unloaded, improved);
+  }
+};
+
+}  // namespace
+}  // namespace live_stiffness
