@@ -21,7 +21,7 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Matrix3X6 = Eigen::Matrix<double, 3, 6>;
 using Pressures = Eigen::VectorXd;  // gauge, Pa, one per chamber, base to tip in the order of the scene
-using PressuresRef = const Eigen::Ref<const Eigen::VectorXd>&;
+using PressuresRef = const Eigen::Ref<const Eigen::VectorXd>&;  // of arguments; any vector or part of one, not copied
 
 using Twist = Vector6;   // [v; w]
 using Wrench = Vector6;  // [f; m]

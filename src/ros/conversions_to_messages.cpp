@@ -3,6 +3,13 @@
 namespace live_stiffness {
 namespace {
 
+std_msgs::Header header(const ros::Time& stamp, const std::string& frame) {
+  std_msgs::Header header;
+  header.stamp = stamp;
+  header.frame_id = frame;
+  return header;
+}
+
 template <class Message>
 Message toXyz(const Vector3& v) {
   Message message;
@@ -16,8 +23,7 @@ Message toXyz(const Vector3& v) {
 template <class Estimate, class Message>
 void fillEstimate(const Estimate& estimate, const Ellipsoid& translation, const ros::Time& stamp,
                   const std::string& frame, Message& message) {
-  message.header.stamp = stamp;
-  message.header.frame_id = frame;
+  message.header = header(stamp, frame);
   copyRowByRow(estimate.solution.compliance, message.compliance);
   copyRowByRow(estimate.solution.material_compliance, message.material_compliance);
   copyRowByRow(estimate.stiffness, message.stiffness);
@@ -61,8 +67,7 @@ geometry_msgs::Pose toPose(const Pose& X) {
 geometry_msgs::TransformStamped toTransform(const Pose& X, const ros::Time& stamp, const std::string& parent,
                                             const std::string& child) {
   geometry_msgs::TransformStamped transform;
-  transform.header.stamp = stamp;
-  transform.header.frame_id = parent;
+  transform.header = header(stamp, parent);
   transform.child_frame_id = child;
   transform.transform.translation = toVector(X.p);
   transform.transform.rotation = toQuaternion(X.R);
@@ -71,8 +76,7 @@ geometry_msgs::TransformStamped toTransform(const Pose& X, const ros::Time& stam
 
 geometry_msgs::PoseStamped toPoseStamped(const Pose& X, const ros::Time& stamp, const std::string& frame) {
   geometry_msgs::PoseStamped pose;
-  pose.header.stamp = stamp;
-  pose.header.frame_id = frame;
+  pose.header = header(stamp, frame);
   pose.pose = toPose(X);
   return pose;
 }
@@ -86,8 +90,7 @@ ChamberPressures toPressures(PressuresRef pressures, const ros::Time& stamp) {
 
 geometry_msgs::WrenchStamped toWrenchStamped(const Wrench& wrench, const ros::Time& stamp, const std::string& frame) {
   geometry_msgs::WrenchStamped message;
-  message.header.stamp = stamp;
-  message.header.frame_id = frame;
+  message.header = header(stamp, frame);
   message.wrench = toWrench(wrench);
   return message;
 }
@@ -129,8 +132,7 @@ void fillDeflection(const DeflectionCheck& check, PredictDeflection::Response& r
 TipContact toTipContact(const TipWrenchEstimate& estimate, const Wrench& known, const std::string& fault,
                         const ros::Time& stamp, const std::string& frame) {
   TipContact contact;
-  contact.header.stamp = stamp;
-  contact.header.frame_id = frame;
+  contact.header = header(stamp, frame);
   contact.contact = estimate.contact;
   contact.outlier = estimate.outlier;
   contact.tracked = estimate.tracked;
@@ -179,8 +181,7 @@ geometry_msgs::Twist toTwist(const Twist& twist) {
 nav_msgs::Path toPath(const std::vector<Station>& stations, const Pose& X_BT, const ros::Time& stamp,
                       const std::string& frame) {
   nav_msgs::Path path;
-  path.header.stamp = stamp;
-  path.header.frame_id = frame;
+  path.header = header(stamp, frame);
   for (const Station& station : stations) path.poses.push_back(toPoseStamped(station.X_BS, stamp, frame));
   path.poses.push_back(toPoseStamped(X_BT, stamp, frame));
   return path;
@@ -189,8 +190,7 @@ nav_msgs::Path toPath(const std::vector<Station>& stations, const Pose& X_BT, co
 TrackingError toTrackingError(const Pose& measured, const Pose& predicted, const Twist& residual,
                               const ros::Time& stamp, const std::string& frame) {
   TrackingError error;
-  error.header.stamp = stamp;
-  error.header.frame_id = frame;
+  error.header = header(stamp, frame);
   error.measured = toPose(measured);
   error.predicted = toPose(predicted);
   error.translation = toVector(linear(residual));

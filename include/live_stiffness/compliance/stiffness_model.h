@@ -47,7 +47,7 @@ struct StiffnessSolution {
  private:
   friend class StiffnessModel;
   struct Unset {};
-  explicit StiffnessSolution(Unset) {}  // to write 72 zeros costs a solve 3 % of its time
+  explicit StiffnessSolution(Unset) {}  // every solve would write 72 zeros for nothing
   void clearCompliances() { compliance.setZero(), material_compliance.setZero(); }
 };
 
