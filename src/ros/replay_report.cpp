@@ -21,7 +21,8 @@ std::string ReplayReport::text(const std::string& bag, double accuracy) const {
   out.precision(3);
   out << "# " << bag << "\n\n"
       << duration << " s of bag in " << wall_time << " s, " << duration / wall_time << " times real time.\n\n"
-      << "| topic | usable | unusable | rate, Hz | longest gap, s, at s | stamps going back |\n|---|---|---|---|---|---|\n";
+      << "| topic | usable | unusable | rate, Hz | longest gap, s, at s | stamps going back |\n"
+      << "|---|---|---|---|---|---|\n";
   for (const TopicReport* topic : {&pressures, &poses, &wrenches}) addRow(*topic, out);
   for (const TopicReport* topic : {&pressures, &poses, &wrenches})
     if (topic->unusable > 0) out << "\nFirst unusable on " << topic->name << ": " << topic->first_fault << "\n";
