@@ -103,4 +103,21 @@ NodeTransfer makeTransfer(int from, int to) {
   return transfer;
 }
 
+// As Legendre series:
+//   int P_k(xi) dx = (xi^2 - 1) P_k'(xi) / (2 k (k + 1)),  P_{k+1}' = P_{k-1}' + (2 k + 1) P_k,  xi = 2 x - 1.
+void integralWeights(int nodes, double x, double* weight) {
+  const GaussLegendre& table = gaussLegendre(nodes);
+  const double xi = 2.0 * x - 1.0, bubble = 2.0 * x * (x - 1.0);
+  double before = 1.0, now = xi, slope_before = 0.0, slope = 1.0;
+  for (int j = 0; j < nodes; ++j) weight[j] = x * table.legendre[0][j];
+  for (int k = 1; k < nodes; ++k) {
+    const double integral = bubble * slope / (k * (k + 1));
+    for (int j = 0; j < nodes; ++j) weight[j] += integral * table.legendre[k][j];
+    const double next_slope = slope_before + (2 * k + 1) * now;
+    const double next = ((2 * k + 1) * xi * now - k * before) / (k + 1);
+    slope_before = slope, slope = next_slope;
+    before = now, now = next;
+  }
+}
+
 }  // namespace live_stiffness

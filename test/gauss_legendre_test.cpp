@@ -68,5 +68,19 @@ TEST(NodeTransfer, CarriesPolynomialsThatStartAtZeroToOtherNodes) {
     }
 }
 
+TEST(IntegralWeights, IntegratePolynomialsThroughTheNodesUpToX) {
+  for (int n = 1; n <= kMaxNodes; ++n)
+    for (double x : {0.0, 1e-9, 0.2, 0.5, 0.83, 1.0}) {
+      double weight[kMaxNodes];
+      integralWeights(n, x, weight);
+      for (int power = 0; power < n; ++power) {
+        double integral = 0.0;
+        for (int j = 0; j < n; ++j) integral += weight[j] * std::pow(gaussLegendre(n).c[j], power);
+        EXPECT_NEAR(integral, std::pow(x, power + 1) / (power + 1), 1e-15) << n << " nodes, power " << power;
+      }
+      for (int j = 0; x == 0.0 && j < n; ++j) EXPECT_EQ(weight[j], 0.0);
+    }
+}
+
 }  // namespace
 }  // namespace live_stiffness

@@ -136,6 +136,21 @@ TEST_F(NoAllocation, InAStation) {
   EXPECT_EQ(g_allocations, 0);
 }
 
+// Warm or cold, of one element or of many.
+TEST_F(NoAllocation, InAPlanOfStations) {
+  StationPlan plan({0.1, 0.2, 0.5, 0.6, 0.9, 1.0});
+  Station stations[6];
+  for (double accuracy : {1e-3, 1e-12}) {
+    const StiffnessModel model(paperScene(2), accurateTo(accuracy));
+    StiffnessWorkspace workspace = model.makeWorkspace();
+    const Pressures pressures = Pressures::Constant(12, 5e4);
+    const Counting counting;
+    model.solve(pressures, Wrench::Zero(), workspace);
+    model.stations(workspace, 1, plan, stations);
+    EXPECT_EQ(g_allocations, 0);
+  }
+}
+
 TEST_F(NoAllocation, InAParallelRobot) {
   const ParallelModel model(awkwardRobot(), {});
   ParallelWorkspace workspace = model.makeWorkspace();

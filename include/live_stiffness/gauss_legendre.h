@@ -25,4 +25,7 @@ struct NodeTransfer {
 };
 NodeTransfer makeTransfer(int from, int to);
 
+// Weights of the values at the nodes in the integral from 0 to x of the polynomial through them; exactly nothing at 0.
+void integralWeights(int nodes, double x, double* weight);
+
 }  // namespace live_stiffness

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "live_stiffness/checks.h"
+#include "live_stiffness/compliance/material_compliance.h"
 
 namespace live_stiffness {
 
@@ -108,16 +109,11 @@ SolveStatus StiffnessModel::solveInto(StiffnessSolution& solution, PressuresRef 
 }
 
 Station StiffnessModel::station(const StiffnessWorkspace& workspace, int segment, double fraction) const {
-  Station station;
-  stationsAt(workspace.backbone(), segment, &fraction, 1, options_.accuracy, workspace.loaded(), &station);
-  return station;
+  return stationAt(workspace.backbone(), segment, fraction, {options_.accuracy, workspace.loaded()});
 }
 
-void StiffnessModel::stations(const StiffnessWorkspace& workspace, int segment, const std::vector<double>& fractions,
-                              std::vector<Station>& out) const {
-  out.resize(fractions.size());
-  stationsAt(workspace.backbone(), segment, fractions.data(), fractions.size(), options_.accuracy, workspace.loaded(),
-             out.data());
+void StiffnessModel::stations(const StiffnessWorkspace& workspace, int segment, StationPlan& plan, Station* out) const {
+  plan.read(workspace.backbone(), segment, {options_.accuracy, workspace.loaded()}, out);
 }
 
 std::string StiffnessModel::describe(const SolveStatus& status) const {

@@ -28,7 +28,8 @@ std::vector<Station> sampleBackbone(const StiffnessModel& model, const Stiffness
 
 StiffnessEstimator::StiffnessEstimator(Scene scene, const ModelOptions& model_options, EstimatorOptions options)
     : model_(std::move(scene), model_options), options_(checked(std::move(options))),
-      workspace_(model_.makeWorkspace()), creep_(model_.scene()) {}
+      workspace_(model_.makeWorkspace()), plans_(model_.scene().segmentCount(), StationPlan(options_.fractions)),
+      creep_(model_.scene()) {}
 
 StiffnessEstimator::Outcome StiffnessEstimator::setPressures(PressuresRef pressures, double time) {
   // What the solver will refuse must not get into the creep's memory.
@@ -77,11 +78,12 @@ StiffnessEstimator::Outcome StiffnessEstimator::solve() {
   candidate_.effective = newest_effective_;
   candidate_.tip_wrench = newest_wrench_;
   candidate_.tip_ellipsoid = ellipsoidOf(candidate_.solution.compliance.topLeftCorner<3, 3>());
-  candidate_.stations.clear();
+  const int segments = model_.scene().segmentCount();
+  const size_t per_segment = options_.fractions.size();
+  candidate_.stations.resize(segments * per_segment);
   candidate_.stretch.clear();
-  for (int segment = 0; segment < model_.scene().segmentCount(); ++segment) {
-    model_.stations(workspace_, segment, options_.fractions, of_segment_);
-    candidate_.stations.insert(candidate_.stations.end(), of_segment_.begin(), of_segment_.end());
+  for (int segment = 0; segment < segments; ++segment) {
+    model_.stations(workspace_, segment, plans_[segment], candidate_.stations.data() + segment * per_segment);
     candidate_.stretch.push_back(workspace_.backbone().rest[segment].stretch);
   }
   std::swap(estimate_, candidate_);

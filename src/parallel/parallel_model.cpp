@@ -80,11 +80,8 @@ void ParallelModel::stations(const ParallelWorkspace& workspace, int rod, const 
                              std::vector<Pose>& out) const {
   const HeldRod& held = workspace.rods()[rod];
   out.resize(fractions.size());
-  Station station;
-  for (size_t i = 0; i < fractions.size(); ++i) {
-    stationsAt(held.backbone(), 0, &fractions[i], 1, options_.accuracy, true, &station);
-    out[i] = held.X_BR() * station.X_BS;
-  }
+  for (size_t i = 0; i < fractions.size(); ++i)
+    out[i] = held.X_BR() * stationAt(held.backbone(), 0, fractions[i], {options_.accuracy, true}).X_BS;
 }
 
 std::string ParallelModel::describe(const SolveStatus& status) const {

@@ -47,10 +47,9 @@ void append(const Vector3& p, std::vector<double>& numbers) { numbers.insert(num
 // Stations of the last solve in the workspace.
 void appendStations(const StiffnessModel& model, const StiffnessWorkspace& workspace, const Further& further,
                     std::vector<double>& numbers) {
-  std::vector<Station> stations;
   for (int k = 0; k < model.scene().segmentCount(); ++k) {
-    model.stations(workspace, k, further.fractions, stations);
-    for (const Station& station : stations) {
+    for (double fraction : further.fractions) {
+      const Station station = model.station(workspace, k, fraction);
       append(station.X_BS.p, numbers);
       const Eigen::Quaterniond q(station.X_BS.R);
       for (double value : {q.w(), q.x(), q.y(), q.z()}) numbers.push_back(value);

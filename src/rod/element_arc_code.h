@@ -104,7 +104,7 @@ inline void placeArc(ElementState& e) {
   e.compliance_error = e.station_error = 0.0;
 }
 
-inline void arcStations(const ElementState& e, const StationBatch& s, int v) {
+inline void arcStations(const ElementState& e, const StationBatch& s, const StationResults& out, int v) {
   Arc arc = arcTo(e, e.length * load(s.fraction, v));
   if (!isNothing(e.start_compliance)) {
     Lanes before[kPackedSize];
@@ -112,7 +112,7 @@ inline void arcStations(const ElementState& e, const StationBatch& s, int v) {
     shift(arc.r, before);
     for (int i = 0; i < kPackedSize; ++i) arc.compliance[i] += before[i];
   }
-  storeSections(e, s, v, arc.R, arc.r, arc.compliance);
+  storeSections(e, out, v, arc.R, arc.r, arc.compliance);
 }
 
 }  // namespace

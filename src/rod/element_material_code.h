@@ -133,73 +133,41 @@ struct Material {
     }
     double weight[kDense];
     for (int j = 0; j < kDense; ++j) weight[j] = e.length * t.b[j];
-    weighted<kPackedRow>(e, weight, e.compliance);
+    weighted<kPackedRow>(e, weight, 1, e.compliance);
   }
 
-  // Sum of the first n of the rows, weighted.
+  // Sum of the first n numbers of the rows, weighted; weights are `apart` from one another.
   template <int n>
-  static LIVE_STIFFNESS_INLINE void weighted(const ElementState& e, const double* weight, double* total) {
+  static LIVE_STIFFNESS_INLINE void weighted(const ElementState& e, const double* weight, int apart, double* total) {
     constexpr int kRowVectors = n / kLanes;
     Lanes sum[kRowVectors];
+#pragma GCC unroll 14
     for (int i = 0; i < kRowVectors; ++i) sum[i] = splat(weight[0]) * load(e.dense[0], i);
 #pragma GCC unroll 12
     for (int j = 1; j < kDense; ++j) {
-      const Lanes w = splat(weight[j]);
+      const Lanes w = splat(weight[apart * j]);
 #pragma GCC unroll 14
       for (int i = 0; i < kRowVectors; ++i) sum[i] += w * load(e.dense[j], i);
     }
     for (int i = 0; i < kRowVectors; ++i) store(total, i, sum[i]);
   }
 
-  // Weights, one row a lane, of integrals from 0 to x, times length: as Legendre series, which are exactly nothing at
-  // x = 0:
-  //   int P_k(xi) dx = (xi^2 - 1) P_k'(xi) / (2 k (k + 1)),  P_{k+1}' = P_{k-1}' + (2 k + 1) P_k,  xi = 2 x - 1.
-  static LIVE_STIFFNESS_INLINE void weights(Lanes x, double length, Lanes (&weight)[kDense]) {
-    const GaussLegendre& t = table();
-    const Lanes xi = 2.0 * x - 1.0, bubble = 2.0 * x * (x - 1.0);
-    Lanes integral[kDense], before = splat(1.0), now = xi, slope_before{}, slope = splat(1.0);
-    integral[0] = x;
-#pragma GCC unroll 12
-    for (int k = 1; k < kDense; ++k) {
-      integral[k] = bubble * slope * (1.0 / (k * (k + 1)));
-      const Lanes next_slope = slope_before + (2.0 * k + 1.0) * now;
-      const Lanes next = ((2.0 * k + 1.0) / (k + 1.0)) * xi * now - (k / (k + 1.0)) * before;
-      slope_before = slope, slope = next_slope;
-      before = now, now = next;
-    }
-#pragma GCC unroll 12
-    for (int k = 0; k < kDense; ++k) integral[k] *= length;
-    // Nodes lie symmetrically, and P_k is even or odd as k is.
-#pragma GCC unroll 6
-    for (int j = 0; j < kDense / 2; ++j) {
-      Lanes even = integral[0] * t.legendre[0][j], odd = integral[1] * t.legendre[1][j];
-#pragma GCC unroll 6
-      for (int k = 2; k < kDense; k += 2) {
-        even += integral[k] * t.legendre[k][j];
-        odd += integral[k + 1] * t.legendre[k + 1][j];
-      }
-      weight[j] = even + odd, weight[kDense - 1 - j] = even - odd;
-    }
-  }
-
-  static void stations(const ElementState& e, const StationBatch& s, int v) {
-    const Lanes x = load(s.fraction, v);
-    Lanes weight[kDense];
-    weights(x, e.length, weight);
-    Lanes row[kDenseRow - 1];
-#pragma GCC unroll 27
-    for (int i = 0; i < kDenseRow - 1; ++i) {
-      row[i] = weight[0] * e.dense[0][i];
-#pragma GCC unroll 12
-      for (int j = 1; j < kDense; ++j) row[i] += weight[j] * e.dense[j][i];
-    }
+  // Weighted sums of rows, one a lane; then all about the sections.
+  static void stations(const ElementState& e, const StationBatch& s, const StationResults& out, int v) {
+    double weight[kDense][kLanes] __attribute__((aligned(32))), sums[kLanes][kDenseRow] __attribute__((aligned(32)));
+    for (int j = 0; j < kDense; ++j) store(weight[j], 0, e.length * load(s.weight[j], v));
+#pragma GCC unroll 4
+    for (int lane = 0; lane < kLanes; ++lane) weighted<kDenseRow>(e, &weight[0][lane], kLanes, sums[lane]);
+    Lanes row[kDenseRow];
+    loadAcross(sums, row);
     Lanes3 g{row[kDenseRate], row[kDenseRate + 1], row[kDenseRate + 2]};
-    if (e.unloaded) g = cayleyOfRotation((e.length * x) * splat(e.rest_curvature));
+    if (e.unloaded) g = cayleyOfRotation((e.length * load(s.fraction, v)) * splat(e.rest_curvature));
     const LanesMatrix R = splatMatrix(e.R_start) * cayley(g);
     const Lanes r[3] = {row[kDenseTangent], row[kDenseTangent + 1], row[kDenseTangent + 2]};
-    for (int i = 0; i < kPackedSize; ++i) row[i] += e.start_compliance[i];
+    if (!isNothing(e.start_compliance))
+      for (int i = 0; i < kPackedSize; ++i) row[i] += e.start_compliance[i];
     shift(r, row);
-    storeSections(e, s, v, R, r, row);
+    storeSections(e, out, v, R, r, row);
   }
 };
 

@@ -44,12 +44,12 @@ struct MaterialChoice {
     else run<12>(e, unloaded, bending, error, improved);
   }
 
-  static void stations(const ElementState& e, const StationBatch& s) {
+  static void stations(const ElementState& e, const StationBatch& s, const StationResults& out) {
     for (int v = 0; kLanes * v < s.size; ++v) {
-      if (e.is_arc) arcStations(e, s, v);
-      else if (e.dense_nodes == 4) Material<4>::stations(e, s, v);
-      else if (e.dense_nodes == 8) Material<8>::stations(e, s, v);
-      else Material<12>::stations(e, s, v);
+      if (e.is_arc) arcStations(e, s, out, v);
+      else if (e.dense_nodes == 4) Material<4>::stations(e, s, out, v);
+      else if (e.dense_nodes == 8) Material<8>::stations(e, s, out, v);
+      else Material<12>::stations(e, s, out, v);
     }
   }
 

@@ -44,7 +44,7 @@ LIVE_STIFFNESS_INLINE bool isNothing(const PackedRow& compliance) { return compl
 
 // A batch of sections of an element goes out, one a lane. r: from the element's start, m; at: compliance of everything
 // before the section, about it.
-LIVE_STIFFNESS_INLINE void storeSections(const ElementState& e, const StationBatch& s, int v, const LanesMatrix& R,
+LIVE_STIFFNESS_INLINE void storeSections(const ElementState& e, const StationResults& out, int v, const LanesMatrix& R,
                                          const Lanes (&r)[3], const Lanes* at) {
   const Lanes pose[12] = {R.x.x, R.x.y, R.x.z, R.y.x, R.y.y, R.y.z, R.z.x, R.z.y, R.z.z, e.p_start[0] + r[0],
                           e.p_start[1] + r[1], e.p_start[2] + r[2]};
@@ -55,8 +55,8 @@ LIVE_STIFFNESS_INLINE void storeSections(const ElementState& e, const StationBat
                                 K[0], K[3], K[6], W[0], W[1], W[2],  //
                                 K[1], K[4], K[7], W[1], W[3], W[4],  //
                                 K[2], K[5], K[8], W[2], W[4], W[5]};
-  storeAcross(pose, s.pose + kLanes * v);
-  storeAcross(compliance, s.compliance + kLanes * v);
+  storeAcross(pose, out.pose + kLanes * v);
+  storeAcross(compliance, out.compliance + kLanes * v);
 }
 
 }  // namespace

@@ -133,9 +133,8 @@ TEST(PlaceUnloaded, ArcsEqualQuadratureOfTheSameElements) {
     EXPECT_LT(poseError(arcs.X_BT, quadrature.X_BT, 0.08), 1e-14) << bending;
     for (int segment : {0, 1})
       for (double fraction : {0.0, 0.2, 0.77, 1.0}) {
-        Station a, b;
-        stationsAt(arcs, segment, &fraction, 1, 1e-13, false, &a);
-        stationsAt(quadrature, segment, &fraction, 1, 1e-13, false, &b);
+        const Station a = stationAt(arcs, segment, fraction, {1e-13, false}),
+                      b = stationAt(quadrature, segment, fraction, {1e-13, false});
         EXPECT_TRUE(matrixNear(a.compliance, b.compliance, 1e-12 * by_arcs.norm())) << bending << " " << fraction;
         EXPECT_LT(poseError(a.X_BS, b.X_BS, 0.08), 1e-13) << bending << " " << fraction;
       }

@@ -4,9 +4,10 @@
 // is touched only when something external acts.
 
 #include <string>
+#include <vector>
 
-#include "live_stiffness/compliance/material_compliance.h"
 #include "live_stiffness/compliance/model_options.h"
+#include "live_stiffness/compliance/stations.h"
 #include "live_stiffness/rod/statics.h"
 
 namespace live_stiffness {
@@ -92,9 +93,8 @@ class StiffnessModel {
 
   // Station of the last successful solve in the workspace. segment: 0 to segmentCount() - 1; fraction: 0 to 1.
   Station station(const StiffnessWorkspace& workspace, int segment, double fraction) const;
-  // The same for several fractions at once, quicker. out: as many as fractions; allocates only to grow.
-  void stations(const StiffnessWorkspace& workspace, int segment, const std::vector<double>& fractions,
-                std::vector<Station>& out) const;
+  // The same for several at once, quicker. out: plan.size() of them. Never allocates.
+  void stations(const StiffnessWorkspace& workspace, int segment, StationPlan& plan, Station* out) const;
 
   // A status in words, with the offending value, its legal range and the way out.
   std::string describe(const SolveStatus& status) const;

@@ -68,10 +68,10 @@ class StiffnessEstimator {
   StiffnessModel model_;
   EstimatorOptions options_;
   StiffnessWorkspace workspace_;
+  std::vector<StationPlan> plans_;  // one per segment
   SceneCreep creep_;
   Pressures newest_pressures_, newest_effective_, solved_effective_;
   Wrench newest_wrench_ = Wrench::Zero(), solved_wrench_ = Wrench::Zero();
-  std::vector<Station> of_segment_;  // scratch
   SolveStatus status_;
   Estimate estimate_, candidate_;
   bool has_pressures_ = false, has_solved_ = false, has_estimate_ = false;

@@ -32,8 +32,8 @@ struct ElementPasses {
   void (*material)(ElementState&, bool unloaded, double accuracy);
   // end_compliance from start_compliance and that of the element.
   void (*add_compliance)(ElementState&);
-  // Sections between the nodes, after material() and with start_compliance set.
-  void (*stations)(const ElementState&, const StationBatch&);
+  // Sections between the nodes, after material() and with start_compliance set. The batch is for dense_nodes.
+  void (*stations)(const ElementState&, const StationBatch&, const StationResults&);
 
   // A chain.
 

@@ -99,9 +99,14 @@ struct ElementColumns {
 // Sections inside one element, a batch at a time.
 constexpr int kStationBatch = 4;
 struct StationBatch {
-  int size;                                                    // sections wanted
-  double fraction[kStationBatch] __attribute__((aligned(32)));  // of the element's length, 0 to 1; all must be set
-  // Where the results go, column-major; all must be set, unused ones to a place that may be written to.
+  int size;   // sections wanted; what is beyond must be set, too, and may repeat one of them
+  int nodes;  // which `weight` is for; 0: none yet
+  double fraction[kStationBatch] __attribute__((aligned(32)));  // of the element's length, 0 to 1
+  // Row j: of the values at node j of an element of length 1 in integrals from its start to the sections. Not for arcs.
+  double weight[kMaxNodes][kStationBatch] __attribute__((aligned(32)));
+};
+// Where the results go, column-major.
+struct StationResults {
   double* pose[kStationBatch];        // 12: orientation in B and position, m
   double* compliance[kStationBatch];  // 36: of everything before the section, about it
 };

@@ -44,6 +44,17 @@ bool integrate(const ElementPasses& passes, bool anew, RodElement& element);
 double propagate(const ElementPasses& passes, bool anew, RodElement& element, const ElementColumns& start, double goal,
                  ElementColumns& end);
 
+// The 21 numbers of element_state.h as a 6x6 matrix.
+inline void unpack(const PackedRow& compliance, Matrix6& C) {
+  // Which of the 21 numbers is entry (row, column).
+  static constexpr int kIndex[6][6] = {{0, 1, 2, 6, 7, 8},     {1, 3, 4, 9, 10, 11},   {2, 4, 5, 12, 13, 14},
+                                       {6, 9, 12, 15, 16, 17}, {7, 10, 13, 16, 18, 19}, {8, 11, 14, 17, 19, 20}};
+#pragma GCC unroll 6
+  for (int j = 0; j < 6; ++j)
+#pragma GCC unroll 6
+    for (int i = 0; i < 6; ++i) C(i, j) = compliance[kIndex[i][j]];
+}
+
 // One part (phi, p or m) of columns as a 3x6 matrix.
 inline Eigen::Map<Matrix3X6> columnsOf(double (&part)[6][3]) { return Eigen::Map<Matrix3X6>(&part[0][0]); }
 inline Eigen::Map<const Matrix3X6> columnsOf(const double (&part)[6][3]) {

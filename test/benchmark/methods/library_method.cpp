@@ -7,19 +7,24 @@ namespace live_stiffness {
 
 LibraryMethod::LibraryMethod(std::string name, const Scene& scene, const ModelOptions& options, int stations)
     : StiffnessMethod(std::move(name)), model_(scene, options), workspace_(model_.makeWorkspace()),
-      fractions_(scene.segmentCount()), stations_(scene.segmentCount()) {
+      stations_(scene.segmentCount()) {
   const int segments = scene.segmentCount();
+  std::vector<std::vector<double>> fractions(segments);
   for (int k = 1; k <= stations; ++k) {
     const double along = static_cast<double>(k) / stations * segments;
     const int segment = std::clamp(static_cast<int>(std::ceil(along - 1e-9)) - 1, 0, segments - 1);
-    fractions_[segment].push_back(std::min(1.0, along - segment));
+    fractions[segment].push_back(std::min(1.0, along - segment));
+  }
+  for (int k = 0; k < segments; ++k) {
+    plans_.emplace_back(fractions[k]);
+    stations_[k].resize(fractions[k].size());
   }
 }
 
 StiffnessSolution LibraryMethod::solve(PressuresRef pressures) {
   StiffnessSolution solution = model_.solve(pressures, Wrench::Zero(), workspace_);
-  for (size_t k = 0; solution.status.ok() && k < fractions_.size(); ++k)
-    if (!fractions_[k].empty()) model_.stations(workspace_, static_cast<int>(k), fractions_[k], stations_[k]);
+  for (size_t k = 0; solution.status.ok() && k < plans_.size(); ++k)
+    if (plans_[k].size() > 0) model_.stations(workspace_, static_cast<int>(k), plans_[k], stations_[k].data());
   return solution;
 }
 

@@ -20,7 +20,7 @@ class LibraryMethod : public StiffnessMethod {
  private:
   StiffnessModel model_;
   StiffnessWorkspace workspace_;
-  std::vector<std::vector<double>> fractions_;  // of each segment's stations
+  std::vector<StationPlan> plans_;  // one per segment
   std::vector<std::vector<Station>> stations_;
 };
 
