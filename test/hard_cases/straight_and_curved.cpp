@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "hard_cases/hard_case.h"
+#include "live_stiffness/compliance/material_compliance.h"
 #include "live_stiffness/rod/kinematics.h"
 #include "support/bare_rod.h"
 #include "support/errors.h"
