@@ -83,7 +83,7 @@ Eigenstiffnesses eigenstiffnessesOfCompliance(const Matrix6& C) {
   Matrix6 L;
   if (!factorise(0.5 * C + 0.5 * C.transpose(), L)) return result;
   const Eigen::SelfAdjointEigenSolver<Matrix6> solver(overDelta(L), Eigen::EigenvaluesOnly);
-  const Vector6 compliances = solver.eigenvalues();  // ascending: three negative, three positive
+  const Vector6& compliances = solver.eigenvalues();  // ascending: three negative, three positive
   if (!(compliances[2] < 0.0) || !(compliances[3] > 0.0)) return result;
   result.definite = true;
   constexpr int kLargestFirst[6] = {3, 4, 5, 2, 1, 0};  // the smallest compliance is the largest stiffness

@@ -45,7 +45,7 @@ void integrateTo(const Backbone& backbone, const RodElement& element, double par
 }
 
 void setWeights(int nodes, StationBatch& batch) {
-  double weight[kMaxNodes];
+  double weight[kMaxNodes] = {};
   for (int lane = 0; lane < kStationBatch; ++lane) {
     if (lane < batch.size) integralWeights(nodes, batch.fraction[lane], weight);  // the others repeat the last
     for (int j = 0; j < nodes; ++j) batch.weight[j][lane] = weight[j];
