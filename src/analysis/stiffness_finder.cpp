@@ -97,7 +97,7 @@ std::optional<FoundPressures> approach(Problem& problem, Unknowns& x) {
     for (int attempt = 0; attempt < 12 && !improved && size > 0.0; ++attempt) {
       const Matrix3 normal = J * J.transpose() + damping * size * Matrix3::Identity();
       const Unknowns next = (x - J.transpose() * normal.llt().solve(residual)).cwiseMax(0.0).cwiseMin(1.0);
-      auto found = problem.solve(next);
+      const auto found = problem.solve(next);
       improved = found && found->miss < d->at.miss * (1.0 - 1e-9);
       if (improved) {
         const auto moved = problem.derivatives(next);

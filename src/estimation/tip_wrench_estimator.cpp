@@ -39,7 +39,8 @@ const char* codeName(TipWrenchCode code) {
   return "unknown";
 }
 
-TipWrenchEstimator::TipWrenchEstimator(Scene scene, const ModelOptions& model_options, const TipWrenchOptions& options)
+TipWrenchEstimator::TipWrenchEstimator(const Scene& scene, const ModelOptions& model_options,
+                                       const TipWrenchOptions& options)
     : options_(checked(options)),
       filter_(scene, model_options, options_),
       creep_(firstMaterial(scene).creep_share, firstMaterial(scene).creep_time),

@@ -109,7 +109,8 @@ TipWrenchFilter::Design TipWrenchFilter::designAt(const State& x, const Stiffnes
 }
 
 double TipWrenchFilter::moveBy(const State& step, State& x, StiffnessSolution& solution) {
-  for (double share = 1.0; share >= 0.1; share *= 0.5) {  // bounded work: four tries
+  double share = 1.0;
+  for (int tries = 0; tries < 4; ++tries, share *= 0.5) {
     const State next = x + share * step;
     if (!next.allFinite() || !solveAt(next, solution)) continue;
     x = next;

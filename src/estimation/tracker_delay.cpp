@@ -51,8 +51,9 @@ struct Series {
 double bestDelay(const Series& series) {
   constexpr double kStep = 0.01, kGolden = 0.6180339887498949, kEnough = 1e-5;  // s
   double best = 0.0, least = series.meanSquare(0.0);
-  for (double delay = -TrackerDelay::kLargest; delay <= TrackerDelay::kLargest + 1e-9; delay += kStep) {
-    const double cost = series.meanSquare(delay);
+  const int steps = static_cast<int>(std::round(TrackerDelay::kLargest / kStep));
+  for (int i = -steps; i <= steps; ++i) {
+    const double delay = i * kStep, cost = series.meanSquare(delay);
     if (cost < least) least = cost, best = delay;
   }
   double low = best - kStep, high = best + kStep;

@@ -47,7 +47,7 @@ class TipWrenchEstimator {
   static constexpr double kRestartAfter = 1.0;  // s
 
   // Throws ConfigurationError (all faults) on bad options or scene. Creep is that of the first segment.
-  TipWrenchEstimator(Scene scene, const ModelOptions& model_options, const TipWrenchOptions& options);
+  TipWrenchEstimator(const Scene& scene, const ModelOptions& model_options, const TipWrenchOptions& options);
   TipWrenchEstimator(const TipWrenchEstimator&) = delete;  // its filter refers to its options
   TipWrenchEstimator& operator=(const TipWrenchEstimator&) = delete;
 
