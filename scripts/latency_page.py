@@ -8,6 +8,7 @@ import sys
 
 ROWS, BUILD = sys.argv[1:3]
 TARGETS_US = {"TCPROS": 1000.0, "nodelet": 200.0}  # of the 99th percentile
+DRAWN = " drawn"
 COLUMNS = "transport rate reached sent lost median p99 p999 max solve error".split()
 
 
@@ -17,30 +18,40 @@ def processor():
     return "%d x %s" % (len(names), names[0] if names else platform.machine())
 
 
+def asked(row):
+    return "%g Hz" % float(row["rate"]) if float(row["rate"]) else "as fast as it goes"
+
+
 def main():
     with open(ROWS) as file:
         rows = [dict(zip(COLUMNS, line)) for line in csv.reader(file)]
     with open(BUILD + "/CMakeCache.txt") as cache:
         build_type = re.search(r"CMAKE_BUILD_TYPE:\w+=(\w*)", cache.read()).group(1)
-    print("# Latency\n\nWritten by `scripts/latency`; `scripts/latency --minutes 10` for the long run. From the stamp of "
-          "a pressure message, taken\njust before it is published, to the estimate in a subscriber's callback. Every message is "
-          "solved (`paper_one_segment.yaml`,\nNCM, accuracy 1e-9). Back to the [reference](reference.md).\n")
+    drawn = [row for row in rows if row["transport"].endswith(DRAWN)]
+    if drawn:
+        print("# Latency while markers are drawn\n\nWritten by `scripts/latency --drawn`; [latency.md](latency.md) has "
+              "longer runs without.")
+    else:
+        print("# Latency\n\nWritten by `scripts/latency`; `scripts/latency --minutes 10` for the long run. "
+              "[latency_drawn.md](latency_drawn.md) is\nwhile markers are drawn.")
+    print("From the stamp of a pressure message, taken just before it is published, to the estimate in a subscriber's "
+          "callback. Every\nmessage is solved (`paper_one_segment.yaml`, NCM, accuracy 1e-9). Back to the "
+          "[reference](reference.md).\n")
     print("Machine: %s, Linux %s, no real-time priority. Build: %s.\n"
           "Load average when this was written: %.1f; with more than 1 or so, other work shared the processors, and the tails are its.\n"
           % (processor(), platform.release(), build_type, os.getloadavg()[0]))
     print("| transport | asked | reached, Hz | sent | lost | median, us | p99, us | p99.9, us | max, us | mean solve, us | "
           "median / solve | largest estimated error |\n" + "|---" * 12 + "|")
     for row in rows:
-        rate = float(row["rate"])
         print("| %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %.1f | %s |" % (
-            row["transport"], "%g Hz" % rate if rate else "as fast as it goes", row["reached"], row["sent"], row["lost"],
+            row["transport"], asked(row), row["reached"], row["sent"], row["lost"],
             row["median"], row["p99"], row["p999"], row["max"], row["solve"],
             float(row["median"]) / float(row["solve"]), row["error"]))
+    rows = [row for row in rows if row not in drawn]
     print("\n| target | measured | |\n|---|---|---|")
     for row in rows:
         limit, p99 = TARGETS_US[row["transport"]], float(row["p99"])
-        asked = "%g Hz" % float(row["rate"]) if float(row["rate"]) else "as fast as it goes"
-        print("| %s, %s: p99 below %g us | %.1f us | %s |" % (row["transport"], asked, limit, p99,
+        print("| %s, %s: p99 below %g us | %.1f us | %s |" % (row["transport"], asked(row), limit, p99,
                                                             "met" if p99 < limit else "**missed**"))
     for row in rows:
         if float(row["rate"]) == 1000.0:
@@ -48,6 +59,13 @@ def main():
             kept = row["lost"] == "0" and float(row["reached"]) > 999.0
             print("| %s, 1 kHz for %.1f minutes with nothing lost | %s lost, %s Hz | %s |" % (
                 row["transport"], seconds / 60.0, row["lost"], row["reached"], "met" if kept else "**missed**"))
+    if not drawn:
+        return
+    print("\n*Drawn*: markers at 100 Hz, ten times the default, read by another process (`rostopic hz`), which needs "
+          "processor time\nof its own. Against the rows without:\n\n| | median | p99 | p99.9 |\n|---|---|---|---|")
+    for row, more in zip(rows, drawn):
+        ratios = ["%.2f x" % (float(more[name]) / float(row[name])) for name in ("median", "p99", "p999")]
+        print("| %s, %s | %s |" % (row["transport"], asked(row), " | ".join(ratios)))
 
 
 main()
