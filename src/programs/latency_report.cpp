@@ -73,8 +73,10 @@ class Stopwatch {
     const auto message = boost::make_shared<ChamberPressures>();
     message->pressure.resize(channels_);
     // A wave with steps of kilopascals, so that each is beyond the threshold and is solved.
-    for (int k = 0; k < channels_; ++k)
-      message->pressure[k] = 40e3 + 30e3 * std::sin(0.1 * count + k / 2 * 2.0) + (count % 2) * 2e3;
+    for (int k = 0; k < channels_; ++k) {
+      const int pair = k / 2;
+      message->pressure[k] = 40e3 + 30e3 * std::sin(0.1 * count + 2.0 * pair) + (count % 2) * 2e3;
+    }
     message->header.seq = static_cast<uint32_t>(count + 1);  // within a process roscpp does not number them
     message->header.stamp = ros::Time::now();
     publisher_.publish(message);
