@@ -4,8 +4,9 @@ namespace live_stiffness {
 
 using diagnostic_msgs::DiagnosticStatus;
 
-ArrayInput::ArrayInput(ros::NodeHandle node, Settings settings, Subscribe subscribe, OnValues on_values, OnFault on_fault)
-    : node_(std::move(node)),
+ArrayInput::ArrayInput(const ros::NodeHandle& node, Settings settings, Subscribe subscribe, OnValues on_values,
+                       OnFault on_fault)
+    : node_(node),
       settings_(std::move(settings)),
       subscribe_(std::move(subscribe)),
       on_values_(std::move(on_values)),

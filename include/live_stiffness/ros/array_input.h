@@ -34,7 +34,8 @@ class ArrayInput {
 
   // Calls on_values with each usable array, and on_fault with the reason for each that is not. Without `subscribe`
   // nothing is subscribed to, and arrays come through take() alone.
-  ArrayInput(ros::NodeHandle node, Settings settings, Subscribe subscribe, OnValues on_values, OnFault on_fault);
+  ArrayInput(const ros::NodeHandle& node, Settings settings, Subscribe subscribe, OnValues on_values,
+             OnFault on_fault);
   ArrayInput(const ArrayInput&) = delete;  // callbacks refer to it
 
   // publisher: its name.
