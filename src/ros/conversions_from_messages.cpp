@@ -64,7 +64,7 @@ Reading<Eigen::VectorXd> readStamped(const Stamped& message, Array Stamped::*fie
 template <class Stamped, class Array>
 Reading<Eigen::VectorXd> readArray(const topic_tools::ShapeShifter& message, Array Stamped::*field) {
   Reading<Eigen::VectorXd> reading;
-  const std::string type = message.getDataType(), own_type = ros::message_traits::DataType<Stamped>::value();
+  const std::string &type = message.getDataType(), own_type = ros::message_traits::DataType<Stamped>::value();
   if (type == own_type) {
     if (const auto typed = decode<Stamped>(message, reading)) return readStamped(*typed, field);
   } else if (type == "std_msgs/Float64MultiArray") {
@@ -129,7 +129,7 @@ double pascalsPerUnit(const std::string& unit) {
 }
 
 bool isWhole(const topic_tools::ShapeShifter& message) {
-  const std::string type = message.getDataType();
+  const std::string& type = message.getDataType();
   Reading<double> unused;
   if (type == "live_stiffness/ChamberPressures") return decode<ChamberPressures_<Short>>(message, unused) != nullptr;
   if (type == "live_stiffness/RodLengths") return decode<RodLengths_<Short>>(message, unused) != nullptr;
@@ -164,7 +164,7 @@ Reading<double> readPressure(const sensor_msgs::FluidPressure& message, const Pr
 
 Reading<TrackedPose> readPose(const topic_tools::ShapeShifter& message, double position_unit) {
   Reading<TrackedPose> reading;
-  const std::string type = message.getDataType();
+  const std::string& type = message.getDataType();
   if (type == "geometry_msgs/PoseStamped") {
     if (const auto typed = decode<geometry_msgs::PoseStamped>(message, reading)) return readPose(*typed, position_unit);
   } else if (type == "geometry_msgs/PoseWithCovarianceStamped") {

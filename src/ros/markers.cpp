@@ -26,6 +26,7 @@ Marker tube(const std::vector<Station>& samples, bool stale, const MarkerStyle& 
   }
   const double largest = std::max(1e-12, *std::max_element(compliance.begin(), compliance.end()));
   std::vector<std_msgs::ColorRGBA> colors;
+  colors.reserve(compliance.size());
   // The root spreads the colours: compliance grows with about the cube of the arc length.
   for (double value : compliance) colors.push_back(blueToRed(std::cbrt(value / largest), stale));
   Marker marker = newMarker(style.frame, stamp, "backbone", 0, Marker::TRIANGLE_LIST);
