@@ -60,10 +60,10 @@ InteractiveMarkerControl axisControl(const Vector3& axis, uint8_t mode, const st
 constexpr char TipHandle::kName[];
 
 TipHandle::TipHandle(const ros::NodeHandle& private_node, const MarkerStyle& style,
-                     const TipHandleOptions& options, ros::Publisher markers, AskNewest newest)
+                     const TipHandleOptions& options, const ros::Publisher& markers, AskNewest newest)
     : style_(style),
       options_(options),
-      markers_(std::move(markers)),
+      markers_(markers),
       newest_(std::move(newest)),
       server_(private_node.resolveName("tip_marker")) {
   fillMenu();

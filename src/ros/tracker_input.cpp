@@ -14,7 +14,7 @@ constexpr double kPlausibleReach = 5.0;  // m from tracker and base; a position 
 
 }  // namespace
 
-TrackerInput::TrackerInput(ros::NodeHandle node, const NodeParameters& parameters, OnTip on_tip)
+TrackerInput::TrackerInput(const ros::NodeHandle& node, const NodeParameters& parameters, OnTip on_tip)
     : node_(node), parameters_(parameters), on_tip_(std::move(on_tip)), watch_("aurora_pose") {
   if (parameters_.tracker_tf_frame.empty()) {
     subscribe();

@@ -31,7 +31,7 @@ class TipHandle {
 
   // Serves the interactive marker on ~tip_marker, and publishes the ghost on `markers`.
   TipHandle(const ros::NodeHandle& private_node, const MarkerStyle& style,
-            const TipHandleOptions& options, ros::Publisher markers, AskNewest newest);
+            const TipHandleOptions& options, const ros::Publisher& markers, AskNewest newest);
   TipHandle(const TipHandle&) = delete;  // callbacks refer to it
 
   // Lets the handle follow the tip, or answers for the newest estimate. Call at the rate of the markers: dragging only

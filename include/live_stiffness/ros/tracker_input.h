@@ -22,7 +22,7 @@ class TrackerInput {
   using OnTip = std::function<void(const Pose& X_AS, const Pose& measured_X_BT, const ros::Time& stamp)>;
 
   // Calls on_tip with each usable measurement. parameters must outlive the input.
-  TrackerInput(ros::NodeHandle node, const NodeParameters& parameters, OnTip on_tip);
+  TrackerInput(const ros::NodeHandle& node, const NodeParameters& parameters, OnTip on_tip);
 
   // The newest measured pose of T in B, if it is not older than pose_timeout and the tracker has not lost its sensor.
   std::optional<Pose> freshTip() const;
