@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""docs/latency.md from the rows of latency_report: ROWS BUILD."""
+"""docs/latency.md, or docs/latency_drawn.md, from the rows of latency_report: ROWS BUILD."""
 import csv
 import os
 import platform
@@ -29,8 +29,8 @@ def main():
         build_type = re.search(r"CMAKE_BUILD_TYPE:\w+=(\w*)", cache.read()).group(1)
     drawn = [row for row in rows if row["transport"].endswith(DRAWN)]
     if drawn:
-        print("# Latency while markers are drawn\n\nWritten by `scripts/latency --drawn`; [latency.md](latency.md) has "
-              "longer runs without.")
+        print("# Latency while markers are drawn\n\nWritten by `scripts/latency --drawn`, how long is in the table (`--minutes`, "
+              "`--seconds`); [latency.md](latency.md) has longer\nruns without.")
     else:
         print("# Latency\n\nWritten by `scripts/latency`; `scripts/latency --minutes 10` for the long run. "
               "[latency_drawn.md](latency_drawn.md) is\nwhile markers are drawn.")
@@ -47,10 +47,9 @@ def main():
             row["transport"], asked(row), row["reached"], row["sent"], row["lost"],
             row["median"], row["p99"], row["p999"], row["max"], row["solve"],
             float(row["median"]) / float(row["solve"]), row["error"]))
-    rows = [row for row in rows if row not in drawn]
     print("\n| target | measured | |\n|---|---|---|")
     for row in rows:
-        limit, p99 = TARGETS_US[row["transport"]], float(row["p99"])
+        limit, p99 = TARGETS_US[row["transport"].split()[0]], float(row["p99"])
         print("| %s, %s: p99 below %g us | %.1f us | %s |" % (row["transport"], asked(row), limit, p99,
                                                             "met" if p99 < limit else "**missed**"))
     for row in rows:
@@ -63,7 +62,7 @@ def main():
         return
     print("\n*Drawn*: markers at 100 Hz, ten times the default, read by another process (`rostopic hz`), which needs "
           "processor time\nof its own. Against the rows without:\n\n| | median | p99 | p99.9 |\n|---|---|---|---|")
-    for row, more in zip(rows, drawn):
+    for row, more in zip([row for row in rows if row not in drawn], drawn):
         ratios = ["%.2f x" % (float(more[name]) / float(row[name])) for name in ("median", "p99", "p999")]
         print("| %s, %s | %s |" % (row["transport"], asked(row), " | ".join(ratios)))
 

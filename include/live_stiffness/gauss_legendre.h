@@ -25,7 +25,8 @@ struct NodeTransfer {
 };
 NodeTransfer makeTransfer(int from, int to);
 
-// Weights of the values at the nodes in the integral from 0 to x of the polynomial through them; exactly nothing at 0.
+// Weights, as many as nodes (1 to kMaxNodes), of the values at the nodes in the integral from 0 to x (0 to 1) of the
+// polynomial through them; exactly nothing at 0.
 void integralWeights(int nodes, double x, double* weight);
 
 }  // namespace live_stiffness

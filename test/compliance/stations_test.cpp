@@ -16,6 +16,7 @@ namespace {
 // Neither sorted nor a multiple of a batch; with both ends, some in the middle, one twice.
 const std::vector<double> kFractions{0.3, 1.0, 0.0, 0.95, 0.5, 0.5, 0.71, 0.02, 1.0, 0.49, 0.66};
 
+// The same polynomials at the same places, in other lanes: no more than rounding differs.
 void expectAlike(const Station& a, const Station& b, double compliance, double length) {
   EXPECT_LT(poseError(a.X_BS, b.X_BS, length), 1e-14);
   EXPECT_TRUE(matrixNear(a.compliance, b.compliance, 1e-14 * compliance));

@@ -22,14 +22,14 @@ struct StationReading {
   bool loaded;      // something external acts
 };
 
-// One station. fraction: of the segment's length; below 0, or NaN, is its base, above 1 its end.
+// One station. segment: from 0; fraction: of its length; below 0, or NaN, is its base, above 1 its end.
 Station stationAt(const Backbone& backbone, int segment, double fraction, const StationReading& reading);
 
 // Stations at fixed fractions of a segment, in any order. It remembers which elements they are in and their weights
 // there, which takes as long to find as to read them: keep one for each segment.
 class StationPlan {
  public:
-  explicit StationPlan(std::vector<double> fractions);
+  explicit StationPlan(std::vector<double> fractions);  // as of stationAt()
 
   int size() const { return static_cast<int>(fractions_.size()); }
   // out: size() of them. Never allocates.

@@ -44,7 +44,7 @@ bool integrate(const ElementPasses& passes, bool anew, RodElement& element);
 double propagate(const ElementPasses& passes, bool anew, RodElement& element, const ElementColumns& start, double goal,
                  ElementColumns& end);
 
-// The 21 numbers of element_state.h as a 6x6 matrix.
+// The 21 numbers of element_state.h as a 6x6 matrix; same point, axes and units.
 inline void unpack(const PackedRow& compliance, Matrix6& C) {
   // Which of the 21 numbers is entry (row, column).
   static constexpr int kIndex[6][6] = {{0, 1, 2, 6, 7, 8},     {1, 3, 4, 9, 10, 11},   {2, 4, 5, 12, 13, 14},
