@@ -66,7 +66,8 @@ void MasterWatch::run() {
 
 void MasterWatch::look() {
   XmlRpcValue answer;
-  if (!ask("getPid", answer)) {
+  XmlRpcValue pid;
+  if (!ask("getPid", pid)) {
     if (!is_away_ && !ros::isShuttingDown())
       ROS_WARN("the master at %s does not answer: what is connected goes on, but nodes that start now find nobody",
                ros::master::getURI().c_str());
@@ -75,8 +76,13 @@ void MasterWatch::look() {
   }
   const bool is_known = ask("lookupNode", answer, ros::this_node::getName());
   if (ros::isShuttingDown()) return;  // asked last: shutting down is why it may not be known
+  // In a container every master may have the same.
+  const bool is_another = pid_ != 0 && pid_ != static_cast<int>(pid);
+  if ((is_another || !is_known) && parameters_.valid() && !ros::param::has(namespace_))
+    ros::param::set(namespace_, parameters_);
   if (!is_known && !uri_.empty()) registerAnew();
   else if (is_known) remember();
+  pid_ = static_cast<int>(pid);
   is_away_ = false;
 }
 
@@ -103,15 +109,13 @@ bool MasterWatch::remember() {
   subscriptions_ = std::move(subscriptions);
   services_ = std::move(services);
   XmlRpcValue parameters;
-  if (ros::param::get(ros::this_node::getName(), parameters)) parameters_ = parameters;
+  if (ros::param::get(namespace_, parameters)) parameters_ = parameters;
   return true;
 }
 
 void MasterWatch::registerAnew() {
   ROS_WARN("the master was restarted: registering there anew");
   XmlRpcValue answer;
-  if (parameters_.valid() && !ros::param::has(ros::this_node::getName()))
-    ros::param::set(ros::this_node::getName(), parameters_);
   for (const auto& [service, uri] : services_) ask("registerService", answer, service, uri, uri_);
   for (const auto& [topic, type] : publications_) ask("registerPublisher", answer, topic, type, uri_);
   for (const auto& [topic, type] : subscriptions_) {

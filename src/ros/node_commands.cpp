@@ -101,7 +101,6 @@ void StiffnessNode::onReconfigure(StiffnessConfig& config, uint32_t level) {
   }
   const std::scoped_lock lock(tracking_.mutex(), live_.mutex());
   parameters_ = parameters;
-  marker_style_.ellipsoid_scale = parameters_.ellipsoid_scale;
   config_ = config;
 }
 

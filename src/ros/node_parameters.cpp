@@ -63,7 +63,9 @@ void readDisplay(ParameterReader& read, NodeParameters& parameters, FaultList& f
   readFrames(read, "tip_frame", "tip", parameters.frames, faults);
   parameters.estimator.fractions =
       read.numbers("ellipsoid_fractions", parameters.estimator.fractions, {0.0, 1.0});
-  parameters.ellipsoid_scale = read.number("ellipsoid_scale_m_per_m_n", parameters.ellipsoid_scale, {1e-6, 1e6});
+  parameters.style.frame = parameters.frames.base;
+  double& ellipsoid_scale = parameters.style.ellipsoid_scale;
+  ellipsoid_scale = read.number("ellipsoid_scale_m_per_m_n", ellipsoid_scale, {1e-6, 1e6});
   parameters.contact_arrow_scale =
       read.number("contact_arrow_n_per_m", parameters.contact_arrow_scale, {1e-6, 1e6});
   parameters.marker_rate = read.number("marker_rate_hz", parameters.marker_rate, {0.1, 100.0});

@@ -1,5 +1,7 @@
 #include "live_stiffness/ros/parallel_node.h"
 
+#include <optional>
+
 #include "live_stiffness/ros/parallel_markers.h"
 #include "live_stiffness/ros/solver_report.h"
 
@@ -13,28 +15,23 @@ ParallelNode::ParallelNode(const ros::NodeHandle& node, const ros::NodeHandle& p
       pose_output_(private_node, "platform_pose", parameters_.frames),
       diagnostics_(node, private_node),
       length_input_(
-          node,
+          live_.handle(node),
           {"rod_lengths", "rod lengths", "rod lengths", "", parameters_.scene.rodCount(), parameters_.length_timeout},
           ArrayInput::subscribeTo<RodLengths>(
               [this](const auto& message) { return readRodLengths(message, parameters_.length_unit); }),
           [this](const Eigen::VectorXd& lengths, const ros::Time& stamp) { onLengths(lengths, stamp); },
           [this](const std::string& fault) { input_fault_ = fault; }),
       wrench_input_(
-          node, "platform_wrench", parameters_.frames, parameters_.wrench_timeout,
+          live_.handle(node), "platform_wrench", parameters_.frames, parameters_.wrench_timeout,
           [this] { return estimator_.estimate() ? &estimator_.estimate()->solution.X_BP : nullptr; },
           [this](const Wrench& wrench) { onWrench(wrench); }) {
   estimate_publisher_ = private_node_.advertise<PlatformEstimate>("estimate", 10);
   marker_publisher_ = private_node_.advertise<visualization_msgs::MarkerArray>("markers", 1);
-  diagnostics_.setHardwareID("live_stiffness");
-  diagnostics_.add("Rod lengths", &length_input_, &ArrayInput::diagnose);
-  diagnostics_.add("Solver", this, &ParallelNode::diagnoseSolver);
-  diagnostics_.add("Clock", &clock_watch_, &ClockWatch::diagnose);
-  timers_ = {node_.createTimer(ros::Duration(1.0 / parameters_.heartbeat), &ParallelNode::onHeartbeat, this),
+  addDiagnostics();
+  timers_ = {live_.handle(node).createTimer(ros::Duration(1.0 / parameters_.heartbeat), &ParallelNode::onHeartbeat, this),
              node_.createTimer(ros::Duration(1.0 / parameters_.marker_rate), &ParallelNode::onMarkers, this)};
-  // Not update(): it waits for ROS time, which may stand still or jump back.
-  diagnostics_timer_ = node_.createWallTimer(ros::WallDuration(diagnostics_.getPeriod()),
-                                             [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
   ROS_INFO("%d rods", parameters_.scene.rodCount());
+  live_.start("live_estimate", 0);
 }
 
 void ParallelNode::onLengths(const Eigen::VectorXd& lengths, const ros::Time& stamp) {
@@ -73,13 +70,33 @@ void ParallelNode::onHeartbeat(const ros::TimerEvent&) {
 }
 
 void ParallelNode::onMarkers(const ros::TimerEvent&) {
-  if (estimator_.estimate() == nullptr) return;
-  marker_publisher_.publish(makeParallelMarkers(*estimator_.estimate(), parameters_.scene, isStale(),
-                                                parameters_.style, estimate_stamp_));
+  std::optional<ParallelEstimate> newest;
+  ros::Time stamp;
+  bool stale;
+  {
+    const Lock lock(live_.mutex());
+    if (estimator_.estimate() != nullptr) newest = *estimator_.estimate();
+    stamp = estimate_stamp_;
+    stale = isStale();
+  }
+  if (newest)
+    marker_publisher_.publish(makeParallelMarkers(*newest, parameters_.scene, stale, parameters_.style, stamp));
 }
 
-void ParallelNode::diagnoseSolver(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  reportSolver(estimator_, wrench_input_.fault(), status);
+void ParallelNode::addDiagnostics() {
+  diagnostics_.setHardwareID("live_stiffness");
+  diagnostics_.add("Rod lengths", [this](Status& status) {
+    const Lock lock(live_.mutex());
+    length_input_.diagnose(status);
+  });
+  diagnostics_.add("Solver", [this](Status& status) {
+    const Lock lock(live_.mutex());
+    reportSolver(estimator_, wrench_input_.fault(), status);
+  });
+  diagnostics_.add("Clock", &clock_watch_, &ClockWatch::diagnose);
+  // Not update(): it waits for ROS time, which may stand still or jump back.
+  diagnostics_timer_ = node_.createWallTimer(ros::WallDuration(diagnostics_.getPeriod()),
+                                             [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
 }
 
 }  // namespace live_stiffness

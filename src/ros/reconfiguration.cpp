@@ -25,7 +25,7 @@ void apply(const StiffnessConfig& config, NodeParameters& parameters, FaultList&
   contact.off_force = config.contact_off_force_n;
   contact.on_sigmas = config.contact_on_sigmas;
   contact.off_sigmas = config.contact_off_sigmas;
-  parameters.ellipsoid_scale = config.ellipsoid_scale_m_per_m_n;
+  parameters.style.ellipsoid_scale = config.ellipsoid_scale_m_per_m_n;
   parameters.contact_arrow_scale = config.contact_arrow_n_per_m;
   parameters.show_eigenscrews = config.show_eigenscrews;
   parameters.eigenscrew_length = config.eigenscrew_length_m;

@@ -50,21 +50,19 @@ StiffnessNode::StiffnessNode(const ros::NodeHandle& node, const ros::NodeHandle&
         parameters_.registration = registration;
         contact_.reset();
       }) {
-  marker_style_.frame = parameters_.frames.base;
-  marker_style_.ellipsoid_scale = parameters_.ellipsoid_scale;
   estimate_publisher_ = private_node_.advertise<StiffnessEstimate>("estimate", 100);
   error_publisher_ = private_node_.advertise<TrackingError>("tracking_error", 10);
   backbone_publisher_ = private_node_.advertise<nav_msgs::Path>("backbone", 1);
   marker_publisher_ = private_node_.advertise<visualization_msgs::MarkerArray>("markers", 1);
   addDiagnostics();
   if (parameters_.tip_handle.enabled)
-    tip_handle_ = std::make_unique<TipHandle>(private_node_, marker_style_, parameters_.tip_handle, marker_publisher_,
-                                              [this] { return newest(); });
+    tip_handle_ = std::make_unique<TipHandle>(private_node_, parameters_.style, parameters_.tip_handle,
+                                              marker_publisher_, [this] { return newest(); });
   addServices();
-  const ros::Duration heartbeat(1.0 / parameters_.heartbeat);
+  const ros::Duration heartbeat(1.0 / parameters_.heartbeat), between_markers(1.0 / parameters_.marker_rate);
   timers_ = {live_.handle(node).createTimer(heartbeat, &StiffnessNode::onHeartbeat, this),
              tracking_.handle(node).createTimer(heartbeat, [this](const ros::TimerEvent&) { tracker_input_.tend(); }),
-             node_.createTimer(ros::Duration(1.0 / parameters_.marker_rate), &StiffnessNode::onMarkers, this)};
+             drawing_.handle(node).createTimer(between_markers, &StiffnessNode::onMarkers, this)};
   const std::string fault = parameters_.lock_memory ? lockMemory() : "";
   if (!fault.empty()) ROS_WARN("~lock_memory: memory cannot be locked, going on without: %s", fault.c_str());
   ROS_INFO("%s, stepping %s, %d segment(s), %d chamber(s) on %d channel(s)", modelName(parameters_.model).c_str(),
@@ -72,9 +70,11 @@ StiffnessNode::StiffnessNode(const ros::NodeHandle& node, const ros::NodeHandle&
            parameters_.scene.chamberCount(), pressure_input_.channelCount());
   live_.start("live_estimate", parameters_.realtime_priority);
   tracking_.start("live_tracking", 0);
+  drawing_.start("live_drawing", 0);
 }
 
 StiffnessNode::~StiffnessNode() {
+  drawing_.stop();
   tracking_.stop();
   live_.stop();
 }
@@ -163,11 +163,11 @@ void StiffnessNode::onTracked(const Pose& X_AS, const Pose& measured_X_BT, const
 // Solved anew, so that the live lane need not wait while it is sampled.
 std::vector<Station> StiffnessNode::shapeOf(const NewestEstimate& newest) {
   const Estimate& estimate = *newest.estimate;
-  drawing_.follow(newest.model);
+  shape_solver_.follow(newest.model);
   const StiffnessSolution solution =
-      drawing_.model().solve(estimate.effective, estimate.tip_wrench, drawing_.workspace());
-  if (solution.status.ok() && isSameEquilibrium(solution.X_BT, estimate.solution.X_BT, drawing_.model()))
-    return sampleBackbone(drawing_.model(), drawing_.workspace(), kBackboneSamples);
+      shape_solver_.model().solve(estimate.effective, estimate.tip_wrench, shape_solver_.workspace());
+  if (solution.status.ok() && isSameEquilibrium(solution.X_BT, estimate.solution.X_BT, shape_solver_.model()))
+    return sampleBackbone(shape_solver_.model(), shape_solver_.workspace(), kBackboneSamples);
   // In another stable shape than the one it takes from rest, which only the live solver can show.
   const Lock lock(live_.mutex());
   const std::vector<Station> samples = estimator_->sampleBackbone(kBackboneSamples);
@@ -182,19 +182,23 @@ void StiffnessNode::onMarkers(const ros::TimerEvent&) {
   if (samples.empty()) return;
   std::optional<Pose> measured_tip;
   visualization_msgs::MarkerArray contact;
+  MarkerStyle style;
+  double eigenscrew_length;  // m; 0: none are shown
   {
     const Lock lock(tracking_.mutex());
+    style = parameters_.style;
+    eigenscrew_length = parameters_.show_eigenscrews ? parameters_.eigenscrew_length : 0.0;
     measured_tip = tracker_input_.freshTip();
-    contact = contact_.markers(marker_style_, newest.stamp);
+    contact = contact_.markers(style, newest.stamp);
   }
   visualization_msgs::MarkerArray markers =
-      makeMarkers(estimate, samples, measured_tip, newest.stale, marker_style_, newest.stamp);
+      makeMarkers(estimate, samples, measured_tip, newest.stale, style, newest.stamp);
   append(markers, contact);
-  if (parameters_.show_eigenscrews)
-    append(markers, makeEigenscrewMarkers(estimate, newest.stale, parameters_.eigenscrew_length, marker_style_, newest.stamp));
+  if (eigenscrew_length > 0.0)
+    append(markers, makeEigenscrewMarkers(estimate, newest.stale, eigenscrew_length, style, newest.stamp));
   marker_publisher_.publish(markers);
   if (tip_handle_) tip_handle_->update();
-  backbone_publisher_.publish(toPath(samples, estimate.solution.X_BT, newest.stamp, parameters_.frames.base));
+  backbone_publisher_.publish(toPath(samples, estimate.solution.X_BT, newest.stamp, style.frame));
 }
 
 void StiffnessNode::addDiagnostics() {

@@ -6,6 +6,7 @@
 
 #include <memory>
 
+#include "live_stiffness/ros/master_watch.h"
 #include "live_stiffness/ros/stiffness_node.h"
 
 namespace live_stiffness {
@@ -13,9 +14,13 @@ namespace live_stiffness {
 class StiffnessNodelet : public nodelet::Nodelet {
  private:
   // A throw here is logged by the manager with its text, and the nodelet is not loaded.
-  void onInit() override { node_ = std::make_unique<StiffnessNode>(getNodeHandle(), getPrivateNodeHandle()); }
+  void onInit() override {
+    node_ = std::make_unique<StiffnessNode>(getNodeHandle(), getPrivateNodeHandle());
+    master_ = std::make_unique<MasterWatch>(getPrivateNodeHandle().getNamespace());
+  }
 
   std::unique_ptr<StiffnessNode> node_;
+  std::unique_ptr<MasterWatch> master_;
 };
 
 }  // namespace live_stiffness

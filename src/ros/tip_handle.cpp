@@ -73,8 +73,9 @@ void TipHandle::fillMenu() {
   for (Question question :
        {Question::kForceAtPosition, Question::kWrenchAtPose, Question::kDeflectionUnderWrench})
     entries_.push_back(menu_.insert(
-        titleOf(question), [this, question](const InteractiveMarkerFeedback::ConstPtr&) { choose(question); }));
-  menu_.insert("Let go", [this](const InteractiveMarkerFeedback::ConstPtr&) { letGo(); });
+        titleOf(question),
+        [this, question](const InteractiveMarkerFeedback::ConstPtr&) { later([this, question] { choose(question); }); }));
+  menu_.insert("Let go", [this](const InteractiveMarkerFeedback::ConstPtr&) { later([this] { letGo(); }); });
   choose(question_);
 }
 
@@ -84,7 +85,7 @@ void TipHandle::choose(Question question) {
     menu_.setCheckState(entries_[i],
                         static_cast<size_t>(question) == i ? MenuHandler::CHECKED : MenuHandler::UNCHECKED);
   letGo();
-  is_inserted_ = false;  // it needs other controls; not at once, as the server may just be calling back
+  is_inserted_ = false;  // it needs other controls
 }
 
 void TipHandle::letGo() {
@@ -117,16 +118,23 @@ void TipHandle::insertMarker(const Pose& X_BT) {
   ball.markers.push_back(newMarker("", ros::Time(), "", 0, visualization_msgs::Marker::SPHERE));
   setBall(ball.markers.back(), Vector3::Zero(), 0.35 * marker.scale, color(0.9, 0.9, 0.95, 0.35));
   marker.controls.push_back(ball);
-  server_.insert(marker, [this](const InteractiveMarkerFeedback::ConstPtr& feedback) { onFeedback(feedback); });
+  server_.insert(marker, [this](const InteractiveMarkerFeedback::ConstPtr& feedback) {
+    if (feedback->event_type == InteractiveMarkerFeedback::POSE_UPDATE) later([this, feedback] { drag(*feedback); });
+  });
   menu_.apply(server_, kName);
   is_inserted_ = true;
 }
 
-void TipHandle::onFeedback(const InteractiveMarkerFeedback::ConstPtr& feedback) {
+void TipHandle::later(std::function<void()> action) {
+  const std::lock_guard<std::mutex> lock(waiting_mutex_);
+  waiting_.push_back(std::move(action));
+}
+
+void TipHandle::drag(const InteractiveMarkerFeedback& feedback) {
   const NewestEstimate newest = newest_();
-  if (feedback->event_type != InteractiveMarkerFeedback::POSE_UPDATE || newest.estimate == nullptr) return;
-  const Reading<Pose> pose = readPose(feedback->pose);
-  const Reading<Matrix3> axes = readAxes(feedback->header.frame_id, {style_.frame, ""}, nullptr);
+  if (newest.estimate == nullptr) return;
+  const Reading<Pose> pose = readPose(feedback.pose);
+  const Reading<Matrix3> axes = readAxes(feedback.header.frame_id, {style_.frame, ""}, nullptr);
   if (!pose.ok() || !axes.ok()) {
     ROS_ERROR_THROTTLE(1.0, "tip_marker: %s", (pose.ok() ? axes.fault : pose.fault).c_str());
     return;
@@ -143,6 +151,12 @@ bool TipHandle::isAnswered(const Estimate& estimate) const {
 }
 
 void TipHandle::update() {
+  std::vector<std::function<void()>> actions;
+  {
+    const std::lock_guard<std::mutex> lock(waiting_mutex_);
+    actions.swap(waiting_);
+  }
+  for (const auto& action : actions) action();
   const NewestEstimate newest = newest_();
   if (newest.estimate == nullptr) return;
   const Estimate& estimate = *newest.estimate;

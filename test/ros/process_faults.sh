@@ -69,6 +69,31 @@ start_rig rig_c
 within 20 "a publisher that starts under the new master is not heard" is_fresh
 kill -0 $node || fail "the node died"
 
+echo "- the same with a nodelet"
+kill $node; wait $node || true
+# With a sanitizer, scripts/test says how the manager is to be started, which is not built with it.
+${NODELET_PREFIX:-} rosrun nodelet nodelet manager __name:=manager >"$work/manager.log" 2>&1 &
+manager=$!
+rosrun nodelet nodelet load live_stiffness/StiffnessNodelet manager __name:=stiffness_node "_scene_file:=$scene" \
+  >"$work/load.log" 2>&1 &
+load=$!
+pids+=("$manager" "$load")
+within 30 "no fresh estimate of the nodelet" is_fresh
+kill -9 $master; wait $master 2>/dev/null || true
+within 20 "the nodelet does not say that the master is away" grep -q "does not answer" "$work/manager.log"
+start_master
+within 30 "no fresh estimate of the nodelet by way of the new master" is_fresh
+within 20 "the nodelet's services are not registered anew" \
+  sh -c "rosservice call /stiffness_node/compliance_at '{segment: 0, fraction: 1.0}' | grep -q 'success: True'"
+within 20 "the nodelet's parameters are not there anew" \
+  sh -c "rosparam get /stiffness_node/scene_file | grep -q paper_one_segment"
+kill -INT $load; wait $load || true
+kill -INT $manager; wait $manager || true
+"$programs/stiffness_node" "_scene_file:=$scene" >"$work/node.log" 2>&1 &
+node=$!
+pids+=("$node")
+within 20 "no fresh estimate" is_fresh
+
 for signal in INT TERM; do
   echo "- SIG$signal"
   begin=$(now)

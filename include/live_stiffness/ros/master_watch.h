@@ -4,7 +4,8 @@
 // Connections between nodes outlive the master: data go on. But a new master knows nobody, so that nodes that start
 // afterwards find nobody, and its parameter server is empty. This remembers what the old one knew of this process
 // (publications, subscriptions, services, private parameters) and tells the new one. Nodes of others that do not do so
-// stay connected, and are found again when they are restarted.
+// stay connected, and are found again when they are restarted. Several in one process, as of nodelets, do no harm: each
+// brings its own parameters, and what one has registered the others find there.
 
 #include <ros/master.h>
 #include <ros/this_node.h>
@@ -14,13 +15,16 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 
 namespace live_stiffness {
 
 class MasterWatch {
  public:
-  // Looks once a second, in a thread of its own: a master on a computer that is off makes one wait.
-  MasterWatch() : thread_([this] { run(); }) {}
+  // parameters: namespace of those to bring back. Looks once a second, in a thread of its own: a master on a computer that
+  // is off makes one wait.
+  explicit MasterWatch(std::string parameters = ros::this_node::getName())
+      : namespace_(std::move(parameters)), thread_([this] { run(); }) {}
   ~MasterWatch();
   MasterWatch(const MasterWatch&) = delete;
 
@@ -30,6 +34,8 @@ class MasterWatch {
   bool remember();
   void registerAnew();
 
+  std::string namespace_;
+  int pid_ = 0;  // of the master; 0: not seen yet
   std::string uri_;                                               // of this process
   std::map<std::string, std::string> publications_, subscriptions_;  // type by topic
   std::map<std::string, std::string> services_;                   // URI by service

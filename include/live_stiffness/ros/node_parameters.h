@@ -43,7 +43,7 @@ struct NodeParameters {
   double contact_arrow_scale = 20.0;  // of the arrow drawn, N/m
 
   FrameNames frames;  // B, and T as predicted
-  double ellipsoid_scale = 0.3;  // m of half axis per m/N, that is, the force in N whose displacement is drawn
+  MarkerStyle style;             // its frame is that of B; its scale is the force in N whose displacement is drawn
   double marker_rate = 10.0;     // Hz
   bool show_eigenscrews = false;
   double eigenscrew_length = 0.06;  // of each axis drawn, m

@@ -1,15 +1,20 @@
 #pragma once
 // The node of a parallel robot: rod lengths in; pose and compliance of the platform, tf, markers and diagnostics out.
 // No mathematics and no message fields here.
+//
+// The live lane takes inputs and publishes estimates; markers and diagnostics, on the global callback queue, look at its
+// state under its mutex, so that they delay no estimate.
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 
+#include <mutex>
 #include <string>
 #include <vector>
 
-#include "live_stiffness/ros/clock_watch.h"
 #include "live_stiffness/ros/array_input.h"
+#include "live_stiffness/ros/callback_lane.h"
+#include "live_stiffness/ros/clock_watch.h"
 #include "live_stiffness/ros/parallel_parameters.h"
 #include "live_stiffness/ros/pose_output.h"
 #include "live_stiffness/ros/wrench_input.h"
@@ -20,8 +25,13 @@ class ParallelNode {
  public:
   // Subscribes and advertises. Throws ConfigurationError with every fault of the parameters.
   ParallelNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
+  ~ParallelNode() { live_.stop(); }
 
  private:
+  using Lock = std::lock_guard<std::mutex>;
+  using Status = diagnostic_updater::DiagnosticStatusWrapper;
+
+  // On the live lane.
   void onLengths(const Eigen::VectorXd& lengths, const ros::Time& stamp);
   void onWrench(const Wrench& wrench);
   void react();
@@ -30,9 +40,12 @@ class ParallelNode {
   bool isStale() const { return !newestFault().empty() || length_input_.isStale(); }
   void publishEstimate();
   void onHeartbeat(const ros::TimerEvent&);
-  void onMarkers(const ros::TimerEvent&);
-  void diagnoseSolver(diagnostic_updater::DiagnosticStatusWrapper& status);
 
+  // Elsewhere.
+  void onMarkers(const ros::TimerEvent&);
+  void addDiagnostics();
+
+  CallbackLane live_;
   ros::NodeHandle node_, private_node_;
   ParallelParameters parameters_;
   ParallelEstimator estimator_;

@@ -1,10 +1,11 @@
 #pragma once
 // The node, alone or as a nodelet: inputs, estimator, outputs. No mathematics and no message fields here.
 //
-// Three threads, so that nothing delays an estimate. The live lane takes pressures and known wrenches and publishes
-// estimates. The tracking lane takes tracker poses and estimates contact. All else (markers, services, handle,
-// diagnostics) runs where the process spins its global callback queue, and looks at the lanes' state under their
-// mutexes, for as long as it takes to copy it. Order of locking: tracking, live.
+// Four threads, so that nothing delays an estimate. The live lane takes pressures and known wrenches and publishes
+// estimates. The tracking lane takes tracker poses and estimates contact. The drawing lane makes markers and answers the
+// handle: on the global callback queue it would keep a subscriber in the same process waiting. All else (services,
+// diagnostics) runs where the process spins that queue. Each looks at another's state under its mutex, for as long as it
+// takes to copy it. Order of locking: tracking, live.
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <diagnostic_updater/update_functions.h>
@@ -59,11 +60,13 @@ class StiffnessNode {
   // On the tracking lane.
   void onTracked(const Pose& X_AS, const Pose& measured_X_BT, const ros::Time& stamp);
 
-  // Elsewhere.
-  NewestEstimate newest();
+  // On the drawing lane.
+  void onMarkers(const ros::TimerEvent&);
   // The robot's shape, base to tip.
   std::vector<Station> shapeOf(const NewestEstimate& newest);
-  void onMarkers(const ros::TimerEvent&);
+
+  // Elsewhere; newest() everywhere but on the live lane.
+  NewestEstimate newest();
   void addDiagnostics();
   void addServices();
   bool reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
@@ -74,13 +77,12 @@ class StiffnessNode {
   void renew(const NodeParameters& parameters, bool keeps_inputs);
 
   NodeParameters parameters_;
-  CallbackLane live_, tracking_;
+  CallbackLane live_, tracking_, drawing_;
   ros::NodeHandle node_, private_node_;
   std::shared_ptr<StiffnessEstimator> estimator_;
   MotionHistory history_;  // of the live lane
   PoseOutput pose_output_;
-  MarkerStyle marker_style_;
-  OwnSolver drawing_;
+  OwnSolver shape_solver_;  // of the drawing lane
   ros::Publisher estimate_publisher_, backbone_publisher_, marker_publisher_, error_publisher_;
   ContactOutput contact_;
   ClockWatch clock_watch_;

@@ -4,11 +4,15 @@
 // Three questions, chosen in its menu: which force holds the tip at a position, which wrench holds it at a pose, and
 // where a wrench takes it. The handle follows the tip until it is dragged, and stays where it is dragged until "let
 // go". Each is answered by the exact nonlinear equilibrium in a workspace of its own, never by the live solver.
+//
+// What the mouse does arrives in the server's thread, and waits there for the thread that calls update().
 
 #include <interactive_markers/interactive_marker_server.h>
 #include <interactive_markers/menu_handler.h>
 #include <ros/node_handle.h>
 
+#include <functional>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,11 +39,13 @@ class TipHandle {
   TipHandle(const TipHandle&) = delete;  // callbacks refer to it
 
   // Lets the handle follow the tip, or answers for the newest estimate. Call at the rate of the markers: dragging only
-  // moves the handle, so that questions do not pile up. Answers take at most a fifth of the time.
+  // moves the handle, so that questions do not pile up. Answers take at most a fifth of the time. In one thread, any.
   void update();
 
  private:
-  void onFeedback(const visualization_msgs::InteractiveMarkerFeedback::ConstPtr& feedback);
+  // Has update() do it.
+  void later(std::function<void()> action);
+  void drag(const visualization_msgs::InteractiveMarkerFeedback& feedback);
   void choose(Question question);
   void letGo();
   void fillMenu();
@@ -67,6 +73,9 @@ class TipHandle {
   Ghost ghost_;
   ros::WallTime next_answer_;    // not before, so that hard questions leave the thread to the live estimate
   bool is_inserted_ = false;     // rviz knows the handle with the controls of the question
+
+  std::mutex waiting_mutex_;  // the server's own is held when it calls back, so nothing else may be locked under it
+  std::vector<std::function<void()>> waiting_;
 
   interactive_markers::InteractiveMarkerServer server_;
   interactive_markers::MenuHandler menu_;
