@@ -57,7 +57,10 @@ bool Discretisation::chooseUnloaded(Backbone& backbone) {
   for (const Chain::Part& part : chain_.parts) {
     if (part.segment < 0) continue;
     const RestState& rest = backbone.rest[part.segment];
-    backbone.element_count[part.segment] = countOf(rest.stretch * part.length * rest.curvature.norm(), kMaxBending);
+    const double length = rest.stretch * part.length, bending_squared = length * length * rest.curvature.squaredNorm();
+    // Most often one is enough, which takes neither root nor quotient to see.
+    const bool one = bending_squared <= kMaxBending * kMaxBending;
+    backbone.element_count[part.segment] = one ? 1 : countOf(std::sqrt(bending_squared), kMaxBending);
   }
   const int cheapest = accuracy_ >= kFewNodesAccuracy ? kChoices[0].stages : kMaxStages;
   return backbone.resize(choices_.size() == 1 ? choices_[0].stages : cheapest);

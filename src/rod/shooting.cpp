@@ -60,7 +60,8 @@ double prepare(const Chain& chain, const DeadLoads& loads, Backbone& backbone, H
     if (part.segment < 0) continue;
     const RestState& rest = backbone.rest[part.segment];
     const int count = backbone.element_count[part.segment];
-    const double length = rest.stretch * part.length, own_length = length / count, density = part.mass / length;
+    const double length = rest.stretch * part.length, density = part.mass / length;
+    const double own_length = count == 1 ? length : length / count;  // what follows waits for it
     for (int k = 0; k < count; ++k, ++element) {
       ElementState& e = element->state;
       if (keep != History::kNone) {
