@@ -42,5 +42,7 @@ start_node permitted.log
 ! grep -qE "not permitted|cannot be locked" "$work/permitted.log" || fail "a warning although it is permitted"
 thread=$(grep -l '^live_estimate$' /proc/$node/task/*/comm | cut -d / -f 5)
 chrt -p "$thread" | grep -q "SCHED_FIFO" || fail "estimates are not made under SCHED_FIFO"
+thread=$(grep -l '^live_drawing$' /proc/$node/task/*/comm | cut -d / -f 5)
+chrt -p "$thread" | grep -q "SCHED_OTHER" || fail "markers are not drawn in a thread of their own, that is not real-time"
 ! $locks || [ "$(awk '/VmLck/ { print $2 }' /proc/$node/status)" -gt 0 ] || fail "nothing is locked in memory"
 end_node
