@@ -35,11 +35,11 @@ using Short = ShortAllocator<void>;  // of messages with arrays
 template <class Message, class Value>
 boost::shared_ptr<Message> decode(const topic_tools::ShapeShifter& message, Reading<Value>& reading) {
   try {
-    return message.instantiate<Message>();
+    if (message.size() > 0) return message.instantiate<Message>();  // of no bytes roscpp would count from a null pointer
   } catch (const std::exception&) {
-    reading.fault = "message is damaged, or of another version of " + message.getDataType();
-    return nullptr;
   }
+  reading.fault = "message is damaged, or of another version of " + message.getDataType();
+  return nullptr;
 }
 
 std::string pressureFault(double value, const PressureFormat& format) {
