@@ -108,7 +108,9 @@ TEST_F(CommandsTest, ResetForgetsTheKnownWrench) {
   EXPECT_TRUE(trigger("reset").success);
   // tip_wrench_timeout_s is 0: by itself it would stay. One that was still on its way is known again.
   EXPECT_TRUE(publishUntil([&] {
-    if (watched_.estimate->tip_wrench.force.x != 0.0) EXPECT_TRUE(trigger("reset").success);
+    if (watched_.estimate->tip_wrench.force.x != 0.0) {
+      EXPECT_TRUE(trigger("reset").success);
+    }
     return tipIsAt(free);
   }));
 }
