@@ -53,7 +53,7 @@ MasterWatch::~MasterWatch() {
 
 void MasterWatch::run() {
   std::unique_lock<std::mutex> lock(mutex_);
-  while (!wake_.wait_for(lock, std::chrono::seconds(1), [this] { return stop_; })) {
+  do {  // at once for the first time: a master that goes away before is not known well enough to tell the next one
     lock.unlock();
     try {
       look();
@@ -61,7 +61,7 @@ void MasterWatch::run() {
       ROS_WARN("master: answer not understood: %s", error.getMessage().c_str());
     }
     lock.lock();
-  }
+  } while (!wake_.wait_for(lock, std::chrono::seconds(1), [this] { return stop_; }));
 }
 
 void MasterWatch::look() {

@@ -79,12 +79,14 @@ rosrun nodelet nodelet load live_stiffness/StiffnessNodelet manager __name:=stif
 load=$!
 pids+=("$manager" "$load")
 within 30 "no fresh estimate of the nodelet" is_fresh
+# It looks at the master once a second.
+answers() { rosservice call /stiffness_node/compliance_at '{segment: 0, fraction: 1.0}' | grep -q 'success: True'; }
+within 20 "the nodelet does not answer" answers
 kill -9 $master; wait $master 2>/dev/null || true
 within 20 "the nodelet does not say that the master is away" grep -q "does not answer" "$work/manager.log"
 start_master
 within 30 "no fresh estimate of the nodelet by way of the new master" is_fresh
-within 20 "the nodelet's services are not registered anew" \
-  sh -c "rosservice call /stiffness_node/compliance_at '{segment: 0, fraction: 1.0}' | grep -q 'success: True'"
+within 20 "the nodelet's services are not registered anew" answers
 within 20 "the nodelet's parameters are not there anew" \
   sh -c "rosparam get /stiffness_node/scene_file | grep -q paper_one_segment"
 kill -INT $load; wait $load || true
