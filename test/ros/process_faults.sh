@@ -79,7 +79,7 @@ rosrun nodelet nodelet load live_stiffness/StiffnessNodelet manager __name:=stif
 load=$!
 pids+=("$manager" "$load")
 within 30 "no fresh estimate of the nodelet" is_fresh
-# It looks at the master once a second.
+# Only what it has told the master, and has seen there, can it tell the next one: first when it starts.
 answers() { rosservice call /stiffness_node/compliance_at '{segment: 0, fraction: 1.0}' | grep -q 'success: True'; }
 within 20 "the nodelet does not answer" answers
 kill -9 $master; wait $master 2>/dev/null || true

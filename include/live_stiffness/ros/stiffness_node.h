@@ -5,7 +5,7 @@
 // estimates. The tracking lane takes tracker poses and estimates contact. The drawing lane makes markers and answers the
 // handle: on the global callback queue it would keep a subscriber in the same process waiting. All else (services,
 // diagnostics) runs where the process spins that queue. Each looks at another's state under its mutex, for as long as it
-// takes to copy it. Order of locking: tracking, live.
+// takes to copy it. Order of locking: drawing, tracking, live.
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <diagnostic_updater/update_functions.h>
