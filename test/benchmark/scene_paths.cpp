@@ -3,6 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "support/random_source.h"
+
 namespace live_stiffness {
 
 Scene hangingChain(int segments) {
@@ -29,6 +31,22 @@ std::vector<Pressures> pressurePath(int segments, bool alternating) {
     }
     path.push_back(pressures);
   }
+  return path;
+}
+
+std::vector<Pressures> pressureWalk() {
+  constexpr int kUpdates = 10000;
+  RandomSource random(1);
+  std::vector<Pressures> path;
+  double pairs[] = {0.4, 0.5, 0.3};
+  while (static_cast<int>(path.size()) <= kUpdates / 2) {
+    for (double& bar : pairs) {
+      const double next = bar * (random.uniform(0.0, 1.0) < 0.5 ? 0.99 : 1.01);
+      if (next > 0.1 && next < 0.75) bar = next;
+    }
+    path.push_back(bars(1.0, {pairs[0], pairs[0], pairs[1], pairs[1], pairs[2], pairs[2]}));
+  }
+  for (int i = kUpdates / 2 - 1; i > 0; --i) path.push_back(path[i]);
   return path;
 }
 

@@ -16,6 +16,10 @@ Scene hangingChain(int segments);
 // at 60 % of the first. alternating: every other segment bends the other way.
 std::vector<Pressures> pressurePath(int segments, bool alternating = false);
 
+// A closed path of 10 000 pressures of one segment, always the same: each pair goes up or down by 1 %, at random, between
+// 0.1 and 0.75 bar; back the way it came.
+std::vector<Pressures> pressureWalk();
+
 // Relative errors of a solution against another.
 struct SolutionErrors {
   double pose = 0.0, tangent = 0.0, material = 0.0;

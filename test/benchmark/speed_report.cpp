@@ -186,16 +186,28 @@ void writeBins(CsvFile& csv, const std::string& which, const std::vector<float>&
     csv.row(which, std::pow(10.0, bin / kBinsPerDecade), std::pow(10.0, (bin + 1) / kBinsPerDecade), count);
 }
 
+// Of each update of a closed path, its median over the rounds: what it takes without what the machine is at besides.
+std::vector<float> mediansOfRounds(const std::vector<float>& times, size_t updates) {
+  std::vector<float> medians;
+  for (size_t i = 0; i < updates; ++i) {
+    std::vector<float> rounds;
+    for (size_t k = i; k < times.size(); k += updates) rounds.push_back(times[k]);
+    medians.push_back(static_cast<float>(quantile(rounds, 0.5)));
+  }
+  return medians;
+}
+
 // Beside the updates the step between two pressures, to and fro: always the same work, so that its tail is the machine's
 // and not the solver's. (A loop that waits for itself would not do: it hardly feels what else the processor's core is at.)
 void reportDistribution(const std::string& folder, const Effort& effort) {
-  const std::vector<Pressures> path = pressurePath(1), step = {path[20], path[21]};
+  const std::vector<Pressures> walk = pressureWalk(), path = pressurePath(1), step = {path[20], path[21]};
   const auto timesAlong = [&](const std::string& what, const std::vector<Pressures>& pressures) {
     TimedMethod timed(std::make_unique<LibraryMethod>("library", paperScene(1), accurateTo(1e-6)), pressures, false);
-    for (int i = 0; i < 1000; ++i) timed.update();
+    for (size_t i = 0; i < walk.size(); ++i) timed.update();
     return timeOneByOne(what, effort.distribution_updates, [&] { timed.update(); });
   };
-  SingleTimes updates = timesAlong("single updates", path), repeats = timesAlong("the same update", step);
+  SingleTimes updates = timesAlong("single updates", walk), repeats = timesAlong("the same update", step);
+  std::vector<float> medians = mediansOfRounds(updates.all, walk.size());
 
   CsvFile csv(folder, "distribution.csv", "which,from_us,to_us,count");
   writeBins(csv, "updates", updates.all);
@@ -204,6 +216,7 @@ void reportDistribution(const std::string& folder, const Effort& effort) {
                   "which,updates,preemptions,median_us,p90_us,p99_us,p999_us,max_us,p99_over_median,p999_over_median");
   writeQuantiles(summary, "updates", updates.all, updates.preempted);
   writeQuantiles(summary, "updates not preempted", updates.undisturbed, 0);
+  writeQuantiles(summary, "updates by their medians", medians, 0);
   writeQuantiles(summary, "repeats", repeats.all, repeats.preempted);
   writeQuantiles(summary, "repeats not preempted", repeats.undisturbed, 0);
 }
