@@ -226,8 +226,9 @@ class Report:
         self.free_motion()
         self.keep_calibrated()
         self.materials()
-        Pushes(self).write()
-        Force(self).write()
+        pushes = Pushes(self)
+        pushes.write()
+        Force(self).write(pushes.mount)
         self.tables()
         head = ["# Accuracy on real robots", "",
                 "Written by `scripts/accuracy_report`; do not edit. [calibration.md](calibration.md) explains the method.", "",

@@ -82,15 +82,6 @@ void describeRecording(CalibrationProblem& problem, const CalibrationProblem::So
 
 }  // namespace
 
-Wrench ForceSensorMount::atTip(const Wrench& reading, const Matrix3& R_BT) const {
-  const Matrix3 R_BF = R_BT * expSo3(Vector3(0.0, 0.0, azimuth));
-  const Wrench counted = gains.cwiseProduct(reading);
-  Wrench wrench;
-  linear(wrench) = sign * (R_BF * linear(counted));
-  angular(wrench) = sign * (R_BF * angular(counted)) + (R_BT * Vector3(0.0, 0.0, height)).cross(linear(wrench));
-  return wrench;
-}
-
 CalibrationRecording::CalibrationRecording(Recording given, SampleChoice choice, LoadedSamples loads)
     : recording(std::move(given)), channels(gaugePressures(recording)) {
   used.assign(recording.samples.size(), choice == SampleChoice::kAll);
@@ -122,11 +113,11 @@ CalibrationResult calibrate(const Scene& scene, const ChannelMap& channels,
   CalibrationProblem::Sigmas sigmas{options.position_sigma, options.rotation_sigma};
   progress("fitting", 0, 3);
   CalibrationProblem::Solution solution = problem.solve(problem.start(), sigmas, {}, kCoarse);
-  for (int round = 1; round <= 2; ++round) {  // with the sigmas seen, and wrenches turned by the registration found
+  for (int round = 1; round <= 2; ++round) {  // with the sigmas seen, and tips turned by the registration found
     progress("fitting", round, 3);
     sigmas = residualSigmas(problem, recordings.size(), solution, options);
     for (size_t n = 0; n < recordings.size(); ++n)
-      problem.evaluator(n).updateWrenches(problem.evaluator(n).registration(solution.unknowns.registrations[n]));
+      problem.evaluator(n).orientTips(problem.evaluator(n).registration(solution.unknowns.registrations[n]));
     solution = problem.solve(solution.unknowns, sigmas, {}, round == 2 ? kFine : kCoarse, round == 2);
   }
   progress("fitting", 3, 3);
@@ -138,6 +129,7 @@ CalibrationResult calibrate(const Scene& scene, const ChannelMap& channels,
   result.position_sigma = sigmas.position;
   result.rotation_sigma = sigmas.rotation;
   result.scene = withParameters(scene, parameters, problem.values(solution.unknowns.x));
+  result.force_sensor = withParameters(options.force_sensor, parameters, problem.values(solution.unknowns.x));
   result.recordings.resize(recordings.size());
   for (size_t n = 0; n < recordings.size(); ++n) describeRecording(problem, solution, n, result.recordings[n]);
   describeParameters(problem, parameters, solution, recordings.size(), options.use_priors, result);

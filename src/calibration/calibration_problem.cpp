@@ -58,7 +58,7 @@ CalibrationUnknowns CalibrationProblem::start() {
     RegistrationVector& r = unknowns.registrations.emplace_back(RegistrationVector::Zero());
     r.segment<3>(3) = evaluator->startRegistration().X_AB.p;
     r.segment<3>(6) = evaluator->startRegistration().X_TS.p;
-    evaluator->updateWrenches(evaluator->startRegistration());
+    evaluator->orientTips(evaluator->startRegistration());
   }
   return unknowns;
 }

@@ -106,9 +106,10 @@ void setParameter(ParametricScene<T>& scene, const SceneParameter& parameter, co
       for (int chamber : parameter.chambers) body->section.chambers.azimuths[chamber] += value - parameter.start;
       continue;
     }
-    T& number = *numberOf(*body, parameter.kind);
-    if (parameter.kind == ParameterKind::kYoungsModulus) body->section.shear_modulus *= value / number;
-    number = value;
+    T* number = numberOf(*body, parameter.kind);
+    if (number == nullptr) return;  // not of the scene
+    if (parameter.kind == ParameterKind::kYoungsModulus) body->section.shear_modulus *= value / *number;
+    *number = value;
   }
 }
 

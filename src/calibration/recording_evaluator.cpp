@@ -19,7 +19,8 @@ double sampleTime(const Recording& recording) {
 RecordingEvaluator::RecordingEvaluator(const Scene& scene, const ChannelMap& channels,
                                        const std::vector<SceneParameter>& parameters, const CalibrationRecording& data,
                                        const CalibrationOptions& options)
-    : predictor_(scene, options.model, channels, parameters), data_(data), mount_(options.force_sensor) {
+    : predictor_(scene, options.model, channels, parameters), data_(data), mount_(options.force_sensor),
+      readings_(data.recording) {
   if (data.recording.channelCount() != channels.channelCount())
     throw ConfigurationError(data.recording.name,
                              {std::to_string(data.recording.channelCount()) + " pressure channels: must be " +
@@ -34,7 +35,13 @@ const std::vector<TipPrediction>* RecordingEvaluator::at(const double* x, bool d
       x == nullptr ? Eigen::VectorXd() : Eigen::VectorXd(valuesAt(predictor_.parameters(), x));
   const bool same = has_cache_ && cached_.size() == values.size() && cached_ == values;
   if (!same || (derivatives && !cache_has_derivatives_)) {
+    const ForceSensorMount mount = withParameters(mount_, predictor_.parameters(), values);
+    placeWrenches(mount, samples_);
     cache_ok_ = predictor_.predict(values, samples_, derivatives, predictions_);
+    for (size_t i = 0; cache_ok_ && derivatives && i < samples_.size(); ++i)
+      if (isPushed(i) && samples_[i].wanted)
+        predictions_[i].derivative += predictions_[i].compliance *
+                                      readings_.derivative(mount, predictor_.parameters(), samples_[i].time, R_BT_[i]);
     cached_ = values;
     has_cache_ = true;
     cache_has_derivatives_ = derivatives;
@@ -45,16 +52,21 @@ const std::vector<TipPrediction>* RecordingEvaluator::at(const double* x, bool d
 bool RecordingEvaluator::predictAll(const double* x, std::vector<TipPrediction>& predictions) {
   std::vector<ActuationSample> samples = samples_;
   for (ActuationSample& sample : samples) sample.wanted = true;
-  return predictor_.predict(valuesAt(predictor_.parameters(), x), samples, false, predictions);
+  const Eigen::VectorXd values = valuesAt(predictor_.parameters(), x);
+  placeWrenches(withParameters(mount_, predictor_.parameters(), values), samples);
+  return predictor_.predict(values, samples, false, predictions);
 }
 
-void RecordingEvaluator::updateWrenches(const Registration& registration) {
-  for (size_t i = 0; i < samples_.size(); ++i) {
-    const RecordedSample& sample = data_.recording.samples[i];
-    if (!data_.loaded[i] || !sample.tip_wrench) continue;
-    samples_[i].tip_wrench = mount_.atTip(*sample.tip_wrench, registration.tipPose(sample.tipPose()).R);
-  }
+void RecordingEvaluator::orientTips(const Registration& registration) {
+  R_BT_.clear();
+  for (const RecordedSample& sample : data_.recording.samples)
+    R_BT_.push_back(registration.tipPose(sample.tipPose()).R);
   has_cache_ = false;
+}
+
+void RecordingEvaluator::placeWrenches(const ForceSensorMount& mount, std::vector<ActuationSample>& samples) const {
+  for (size_t i = 0; i < samples.size(); ++i)
+    if (isPushed(i)) samples[i].tip_wrench = readings_.atTip(mount, samples[i].time, R_BT_[i]);
 }
 
 Registration RecordingEvaluator::registration(const RegistrationVector& r) const {

@@ -20,8 +20,8 @@ class RecordingEvaluator {
   // The same for every sample of the recording, used or not.
   bool predictAll(const double* x, std::vector<TipPrediction>& predictions);
 
-  // Wrenches of the loaded samples, with the tip oriented as the tracker saw it.
-  void updateWrenches(const Registration& registration);
+  // From now on the wrenches of loaded samples act on a tip that is oriented as the tracker saw it; before, none act.
+  void orientTips(const Registration& registration);
 
   Registration registration(const RegistrationVector& r) const;
   // Registration that fits best at x, by fitRegistration(), as the new start from which registrations are counted.
@@ -33,9 +33,14 @@ class RecordingEvaluator {
   double correlation() const { return correlation_; }
 
  private:
+  bool isPushed(size_t i) const { return !R_BT_.empty() && data_.loaded[i] && data_.recording.samples[i].tip_wrench; }
+  void placeWrenches(const ForceSensorMount& mount, std::vector<ActuationSample>& samples) const;
+
   TipPredictor predictor_;
   const CalibrationRecording& data_;
   ForceSensorMount mount_;
+  ForceReadings readings_;
+  std::vector<Matrix3> R_BT_;  // of each sample, as seen by the tracker
   std::vector<ActuationSample> samples_;
   std::vector<TipPrediction> predictions_;
   Eigen::VectorXd cached_;

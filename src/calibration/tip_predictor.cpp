@@ -124,6 +124,7 @@ bool TipPredictor::predict(const Eigen::VectorXd& values, const std::vector<Actu
       return false;
     }
     predictions[i].X_BT = solution.X_BT;
+    predictions[i].compliance = options_.external_loads ? solution.compliance : Matrix6(Matrix6::Zero());
     if (!derivatives) continue;
     predictions[i].derivative.resize(6, parameter_count);
     const Vector3 base_moment = workspace.loaded() ? workspace.statics().baseMoment() : Vector3::Zero();

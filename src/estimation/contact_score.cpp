@@ -62,7 +62,7 @@ ContactScore contactScore(const std::vector<ContactSample>& samples) {
       if (sample.time - touched > ContactScore::kSettle) ++score.pushes;
       touched = sample.time;
       const Vector3 error = sample.estimate - sample.truth;
-      score.rms += error.squaredNorm();
+      score.rms += (sample.seen * error).squaredNorm();
       score.rms_truth += truth * truth;
       score.rms_compliant += compliant(error).squaredNorm();
       score.rms_compliant_truth += compliant(sample.truth).squaredNorm();

@@ -52,7 +52,7 @@ po::options_description describe(Arguments& a) {
     ("compliance-table", po::value(&a.tables)->composing(),
      "CSV of measured compliances: pressure_K_pa per chamber, c11_m_per_n to c33_m_per_n")
     ("parameters,p", po::value(&a.parameters)->multitoken(), "names of parameters to fit, or none")
-    ("list", po::bool_switch(&a.list), "print the scene's parameters with priors and bounds, and exit")
+    ("list", po::bool_switch(&a.list), "print the parameters of scene and force sensor with priors and bounds, and exit")
     ("prior", po::value(&a.priors)->composing(), "NAME=MEAN:SIGMA, in the parameter's unit")
     ("bounds", po::value(&a.bounds)->composing(), "NAME=LOW:HIGH, in the parameter's unit")
     ("no-priors", po::bool_switch(&a.no_priors), "let the data decide alone, within the bounds")
@@ -150,20 +150,30 @@ int run(const Arguments& a, const std::string& command) {
   }
   const ChannelMap channels = channelsFor(a, recordings, scene.chamberCount());
   std::vector<SceneParameter> parameters;
+  bool fits_sensor = false;
+  const auto named = [&](const std::string& name) {
+    const auto of_sensor = forceSensorParameter(name, options.force_sensor);
+    fits_sensor = fits_sensor || of_sensor;
+    return of_sensor ? *of_sensor : sceneParameter(name, scene, channels);
+  };
   if (a.list) {
-    for (const std::string& name : sceneParameterNames(scene, channels)) {
-      const SceneParameter p = sceneParameter(name, scene, channels);
+    std::vector<std::string> names = sceneParameterNames(scene, channels);
+    names.insert(names.end(), forceSensorParameterNames().begin(), forceSensorParameterNames().end());
+    for (const std::string& name : names) {
+      const SceneParameter p = named(name);
       std::cout << name << ": " << numberText(p.start / p.unit) << " +- " << numberText(p.prior_sigma / p.unit) << ", "
                 << numberText(p.low / p.unit) << " to " << numberText(p.high / p.unit) << "\n";
     }
     return kExitOk;
   }
   if (!(a.parameters.size() == 1 && a.parameters[0] == "none"))
-    for (const std::string& name : a.parameters) parameters.push_back(sceneParameter(name, scene, channels));
+    for (const std::string& name : a.parameters) parameters.push_back(named(name));
   for (const std::string& text : a.priors)
     readPair(text, "prior", parameters, faults, &SceneParameter::prior_mean, &SceneParameter::prior_sigma);
   for (const std::string& text : a.bounds)
     readPair(text, "bounds", parameters, faults, &SceneParameter::low, &SceneParameter::high);
+  if (fits_sensor && *loads != LoadedSamples::kFit)
+    faults.add("parameters of the force sensor want samples under contact: give --loads fit");
   faults.throwIfAny();
   std::vector<ComplianceRow> rows;
   for (const std::string& path : a.tables)
@@ -179,6 +189,7 @@ int run(const Arguments& a, const std::string& command) {
     };
   const CalibrationResult result = calibrate(scene, channels, parameters, recordings, rows, options);
   std::cout << reportText(result);
+  if (fits_sensor) std::cout << "\nthe force sensor as found: " << ForceSensorOptions::text(result.force_sensor) << "\n";
   const std::string header = sceneHeader(result, command);
   if (!a.output.empty()) {
     saveSceneFile(a.output, result.scene, header);

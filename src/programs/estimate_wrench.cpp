@@ -61,6 +61,7 @@ void run(const std::string& scene_path, const std::string& recording_path, const
   const Scene scene = loadSceneFile(scene_path);
   const Registration registration = loadRegistrationFile(registration_path);
   const Recording recording = withTrackerDelay(loadAnyRecording(recording_path), registration.tracker_delay);
+  const ForceReadings readings(recording);
   const ChannelMap channels = ChannelMap::even(recording.channelCount(), scene.chamberCount());
   const std::vector<Pressures> gauge = gaugePressures(recording);
   ModelOptions model;
@@ -79,13 +80,13 @@ void run(const std::string& scene_path, const std::string& recording_path, const
     estimator.update(chambers, X_BT, sample.time);
     microseconds.push_back(1e6 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     std::optional<Wrench> measured;
-    if (sample.tip_wrench) measured = mount.atTip(*sample.tip_wrench, X_BT.R);
+    if (sample.tip_wrench) measured = readings.atTip(mount, sample.time, X_BT.R);
     writeRow(out, sample.time, estimator, measured);
     const TipWrenchEstimate* estimate = estimator.estimate();
     if (!measured || estimate == nullptr) continue;
     const Matrix3 C = estimate->solution.compliance.topLeftCorner<3, 3>();
     scored.push_back({sample.time, linear(*measured), linear(estimate->wrench), 0.5 * (C + C.transpose()),
-                      estimate->contact});
+                      estimate->contact, mount.seen(X_BT.R)});
   }
   if (!output.empty()) writeTextFile("output", output, out.str());
   else if (!(std::cout << out.str() << std::flush)) throw ConfigurationError("standard output", {"cannot be written"});

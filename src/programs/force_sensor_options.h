@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "live_stiffness/calibration/calibration.h"
+#include "live_stiffness/calibration/force_sensor.h"
 
 namespace live_stiffness {
 
@@ -14,9 +14,11 @@ class ForceSensorOptions {
   void addTo(boost::program_options::options_description& options);
   // Throws ConfigurationError with every value that is out of range.
   ForceSensorMount mount() const;
+  // What a calibration found, as such options.
+  static std::string text(const ForceSensorMount& mount);
 
  private:
-  double azimuth_deg_ = 0.0, height_ = 0.0, sign_ = 1.0;
+  double azimuth_deg_ = 0.0, height_ = 0.0, sign_ = 1.0, crosstalk_x_ = 0.0, crosstalk_y_ = 0.0, delay_ = 0.0;
   std::vector<std::string> channels_;
 };
 

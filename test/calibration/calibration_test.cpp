@@ -157,53 +157,6 @@ TEST(Calibration, RecoversModuliFromATableOfCompliances) {
   for (const ComplianceFit& row : result.rows) EXPECT_LT(row.left_out_matrix_error, 2e-3);
 }
 
-TEST(Calibration, UsesTheForceSensorOfSamplesUnderContact) {
-  // The rig is pushed all the time; the sensor sits a quarter turn off and reports the opposite.
-  Recording pushed = SimulatedRecording().record(arm());
-  const ForceSensorMount mount{radians(90.0), 0.005, -1.0};
-  const StiffnessModel model(arm(), [] { ModelOptions o; o.stepping = Stepping::kContinuous; return o; }());
-  StiffnessWorkspace workspace = model.makeWorkspace();
-  const Registration registration = SimulatedRecording().registration();
-  const std::vector<Pressures> channels = gaugePressures(pushed);
-  for (size_t i = 0; i < pushed.samples.size(); ++i) {
-    Wrench reading = Wrench::Zero();
-    if (i % 3 == 0) reading << 0.1, -0.2, 0.05, 1e-4, 0.0, 2e-4;
-    Pose X_BT = model.solve(kPairs.expand(channels[i]), Wrench::Zero(), workspace).X_BT;
-    for (int k = 0; k < 30; ++k)  // the sensor turns with the tip
-      X_BT = model.solve(kPairs.expand(channels[i]), mount.atTip(reading, X_BT.R), workspace).X_BT;
-    const Pose X_AS = registration.sensorPose(X_BT);
-    pushed.samples[i].tip_position = X_AS.p;
-    pushed.samples[i].tip_orientation = Eigen::Quaterniond(X_AS.R);
-    pushed.samples[i].tip_wrench = reading;
-  }
-  CalibrationOptions options = whiteNoise();
-  options.force_sensor = mount;
-  const CalibrationRecording data(pushed, SampleChoice::kAll, LoadedSamples::kFit);
-  const CalibrationResult with = calibrate(arm(), kPairs, {}, {data}, {}, options);
-  EXPECT_LT(with.recordings[0].used.max, 1e-5);  // exact but for the wrench's last turn
-  options.force_sensor.sign = 1.0;
-  EXPECT_GT(calibrate(arm(), kPairs, {}, {data}, {}, options).recordings[0].used.mean, 1e-3);
-}
-
-TEST(ForceSensorMount, CarriesTheWrenchToTheTipInBaseAxes) {
-  const ForceSensorMount mount{radians(90.0), 0.01, -1.0};
-  Wrench reading;
-  reading << 1.0, 0.0, 0.0, 0.0, 0.0, 0.5;
-  const Wrench at_tip = mount.atTip(reading, Matrix3::Identity());
-  Wrench expected;
-  expected << 0.0, -1.0, 0.0, 0.01, 0.0, -0.5;  // turned onto y and reversed; 10 mm above T: z x -y = +x
-  EXPECT_LT((at_tip - expected).norm(), 1e-15);
-}
-
-TEST(ForceSensorMount, ChannelOfNoGainIsLeftOutInTheSensorsOwnAxes) {
-  ForceSensorMount mount{radians(90.0)};
-  mount.gains << 1.0, 1.0, 0.0, 0.0, 0.0, 0.0;
-  const Wrench reading = Wrench::Ones();
-  Wrench expected;
-  expected << -1.0, 1.0, 0.0, 0.0, 0.0, 0.0;
-  EXPECT_LT((mount.atTip(reading, Matrix3::Identity()) - expected).norm(), 1e-15);
-}
-
 TEST(Calibration, RefusesWhatDoesNotFit) {
   EXPECT_THROW(sceneParameter("gent_limit", arm(), kPairs), ConfigurationError);
   EXPECT_THROW(sceneParameter("colour", arm(), kPairs), ConfigurationError);

@@ -43,6 +43,12 @@ TEST(ContactScore, ErrorAlongTheStiffAxisIsNoErrorOfTheCompliantComponents) {
   EXPECT_NEAR(score.rms_compliant, 0.03, 1e-15);
 }
 
+TEST(ContactScore, ErrorThatTheSensorDoesNotSeeIsNoneOfTheForce) {
+  std::vector<ContactSample> samples = pushedTwice(Vector3(0.3, 0.0, 0.0), Vector3(0.0, 0.03, -0.4));
+  for (ContactSample& sample : samples) sample.seen = Vector3(1.0, 1.0, 0.0).asDiagonal();
+  EXPECT_NEAR(contactScore(samples).rms, 0.03, 1e-15);
+}
+
 TEST(ContactScore, PushThatIsNotReportedIsNotSeen) {
   std::vector<ContactSample> samples = pushedTwice(Vector3(0.3, 0.0, 0.0), Vector3::Zero());
   for (ContactSample& sample : samples)

@@ -15,23 +15,13 @@
 #include <vector>
 
 #include "live_stiffness/calibration/compliance_table.h"
+#include "live_stiffness/calibration/force_sensor.h"
 #include "live_stiffness/calibration/tip_predictor.h"
 #include "live_stiffness/estimation/error_summary.h"
 #include "live_stiffness/estimation/recording.h"
 #include "live_stiffness/estimation/registration.h"
 
 namespace live_stiffness {
-
-// How the force sensor sits on the tip: its axes F turned about z of T, its origin on that axis, the sense of what it
-// reports, and which of its channels count.
-struct ForceSensorMount {
-  double azimuth = 0.0;  // rad
-  double height = 0.0;   // of its origin above T along z of T, m
-  double sign = 1.0;     // 1: it reports what acts on the robot; -1: what the robot exerts
-  Wrench gains = Wrench::Ones();  // of its channels [f; m], own axes; 0: that channel is left out
-  // Dead wrench at T in base axes of a reading [f; m] (its own axes and origin), the tip oriented as R_BT.
-  Wrench atTip(const Wrench& reading, const Matrix3& R_BT) const;
-};
 
 enum class SampleChoice { kAll, kQuasiStatic };
 
@@ -105,6 +95,7 @@ struct CalibrationResult {
   int iterations = 0;
   double seconds = 0.0;
   Scene scene;
+  ForceSensorMount force_sensor;
   std::vector<ParameterFit> parameters;
   Eigen::MatrixXd correlation;  // of the parameters, with priors
   std::vector<UndeterminedDirection> undetermined;

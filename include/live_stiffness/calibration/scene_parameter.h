@@ -1,5 +1,6 @@
 #pragma once
-// Numbers of a scene that a calibration may change: names, what is known of them beforehand, and their bounds.
+// Numbers that a calibration may change, of a scene or of a force sensor: names, what is known of them beforehand, and
+// their bounds.
 
 #include <string>
 #include <vector>
@@ -12,6 +13,8 @@ namespace live_stiffness {
 enum class ParameterKind {
   kYoungsModulus, kShearModulus, kShearCorrection, kLength, kPitchRadius, kChamberRadius, kAreaGrowth, kGentLimit,
   kYeohC2, kYeohC3, kPressureStiffening, kCreepShare, kCreepTime, kTipMass, kLinkMass, kChannelAzimuth,
+  // Not of the scene, see force_sensor.h:
+  kForceSensorAzimuth, kForceSensorHeight, kForceSensorCrosstalkX, kForceSensorCrosstalkY, kForceSensorDelay,
 };
 
 struct SceneParameter {
@@ -36,7 +39,7 @@ SceneParameter sceneParameter(const std::string& name, const Scene& scene, const
 // All names that this scene has.
 std::vector<std::string> sceneParameterNames(const Scene& scene, const ChannelMap& channels);
 
-// The scene with the parameters at these values (SI).
+// The scene with the parameters that are its own at these values (SI).
 Scene withParameters(const Scene& scene, const std::vector<SceneParameter>& parameters, const Eigen::VectorXd& values);
 
 }  // namespace live_stiffness

@@ -20,6 +20,7 @@ struct TipPrediction {
   Pose X_BT;
   // Twist of T (base axes) by parameter: d p / d value and the small rotation, SI; 6 x parameters.
   Eigen::Matrix<double, 6, Eigen::Dynamic> derivative;
+  Matrix6 compliance;  // twist of T by a dead wrench there (base axes)
 };
 
 class TipPredictor {

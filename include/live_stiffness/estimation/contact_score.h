@@ -13,6 +13,7 @@ struct ContactSample {
   Vector3 truth = Vector3::Zero(), estimate = Vector3::Zero();  // on the robot, base axes, N
   Matrix3 compliance = Matrix3::Identity();  // translational block at the tip, symmetric, base axes, m/N
   bool contact = false;                      // reported
+  Matrix3 seen = Matrix3::Identity();        // projects a force on what the sensor measures of it, base axes
 };
 
 // *Compliant components* are those along the two most compliant principal axes of the tip's translation, the ones that the
@@ -25,7 +26,7 @@ struct ContactScore {
 
   int pushes = 0;              // times that the force rose above kTouch after at least kSettle below it
   int during = 0;              // samples with a true force of at least kTouch; the next eight are over them
-  double rms = 0.0, rms_truth = 0.0;                      // error of the force, and the force itself, N
+  double rms = 0.0, rms_truth = 0.0;                      // error of what the sensor sees of the force, and the force, N
   double rms_compliant = 0.0, rms_compliant_truth = 0.0;  // the same of the compliant components, N
   double peak = 0.0, peak_truth = 0.0;                      // largest force, estimated while in contact and true, N
   double peak_compliant = 0.0, peak_compliant_truth = 0.0;  // the same of the compliant components, N

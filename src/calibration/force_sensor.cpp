@@ -1,0 +1,121 @@
+#include "live_stiffness/calibration/force_sensor.h"
+
+#include <ceres/jet.h>
+
+namespace live_stiffness {
+namespace {
+
+// How well it is known before any measurement: sensors are screwed on by eye, and a clock of its own is a sample or so
+// off.
+struct Known {
+  const char* name;
+  ParameterKind kind;
+  double sigma, reach, unit;
+};
+constexpr double kDegree = kPi / 180.0;
+constexpr Known kKnown[] = {
+    {"force_sensor_azimuth_deg", ParameterKind::kForceSensorAzimuth, 5.0 * kDegree, 30.0 * kDegree, kDegree},
+    {"force_sensor_height_m", ParameterKind::kForceSensorHeight, 0.02, 0.1, 1.0},
+    {"force_sensor_crosstalk_x", ParameterKind::kForceSensorCrosstalkX, 0.05, 0.5, 1.0},
+    {"force_sensor_crosstalk_y", ParameterKind::kForceSensorCrosstalkY, 0.05, 0.5, 1.0},
+    {"force_sensor_delay_s", ParameterKind::kForceSensorDelay, 0.05, 0.5, 1.0},
+};
+
+// Number of the mount that a parameter stands for, or nullptr.
+template <class T>
+T* numberOf(ForceSensorMountOf<T>& mount, ParameterKind kind) {
+  switch (kind) {
+    case ParameterKind::kForceSensorAzimuth: return &mount.azimuth;
+    case ParameterKind::kForceSensorHeight: return &mount.height;
+    case ParameterKind::kForceSensorCrosstalkX: return &mount.crosstalk[0];
+    case ParameterKind::kForceSensorCrosstalkY: return &mount.crosstalk[1];
+    case ParameterKind::kForceSensorDelay: return &mount.delay;
+    default: return nullptr;
+  }
+}
+
+constexpr int kNumbers = 5;
+using Jet = ceres::Jet<double, kNumbers>;
+
+}  // namespace
+
+std::optional<SceneParameter> forceSensorParameter(const std::string& name, const ForceSensorMount& mount) {
+  ForceSensorMount numbers = mount;
+  for (const Known& known : kKnown) {
+    if (name != known.name) continue;
+    SceneParameter parameter;
+    parameter.name = name;
+    parameter.kind = known.kind;
+    parameter.start = parameter.prior_mean = *numberOf(numbers, known.kind);
+    parameter.prior_sigma = known.sigma;
+    parameter.low = parameter.start - known.reach;
+    parameter.high = parameter.start + known.reach;
+    parameter.unit = known.unit;
+    return parameter;
+  }
+  return std::nullopt;
+}
+
+const std::vector<std::string>& forceSensorParameterNames() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const Known& known : kKnown) all.emplace_back(known.name);
+    return all;
+  }();
+  return names;
+}
+
+ForceSensorMount withParameters(const ForceSensorMount& mount, const std::vector<SceneParameter>& parameters,
+                                const Eigen::VectorXd& values) {
+  ForceSensorMount result = mount;
+  for (size_t k = 0; k < parameters.size(); ++k)
+    if (double* number = numberOf(result, parameters[k].kind)) *number = values[static_cast<long>(k)];
+  return result;
+}
+
+ForceReadings::ForceReadings(const Recording& recording) {
+  for (const RecordedSample& sample : recording.samples) {
+    if (!sample.tip_wrench) continue;
+    times_.push_back(sample.time);
+    readings_.push_back(*sample.tip_wrench);
+  }
+}
+
+Wrench ForceReadings::atTip(const ForceSensorMount& mount, double time, const Matrix3& R_BT) const {
+  return mount.atTip(valueAt(readings_, placeIn(times_, time + mount.delay)), R_BT);
+}
+
+// Per second; at a reading, where a sensor without delay is read, the mean of both sides. None outside.
+Wrench ForceReadings::slopeAt(const TimePlace& place) const {
+  const auto slopeFrom = [&](size_t i) {
+    return Wrench((readings_[i + 1] - readings_[i]) / (times_[i + 1] - times_[i]));
+  };
+  if (place.share > 0.0 && place.share < 1.0) return slopeFrom(place.before);
+  if (place.share > 0.0 || place.before == 0) return Wrench::Zero();
+  return 0.5 * (slopeFrom(place.before - 1) + slopeFrom(place.before));
+}
+
+Eigen::Matrix<double, 6, Eigen::Dynamic> ForceReadings::derivative(const ForceSensorMount& mount,
+                                                                   const std::vector<SceneParameter>& parameters,
+                                                                   double time, const Matrix3& R_BT) const {
+  ForceSensorMountOf<Jet> seeded;
+  seeded.sign = mount.sign;
+  seeded.gains = mount.gains;
+  ForceSensorMount numbers = mount;
+  for (int k = 0; k < kNumbers; ++k)
+    *numberOf(seeded, kKnown[k].kind) = Jet(*numberOf(numbers, kKnown[k].kind), k);
+  const TimePlace place = placeIn(times_, time + mount.delay);
+  const Wrench reading = valueAt(readings_, place), slope = slopeAt(place);
+  Eigen::Matrix<Jet, 6, 1> read;
+  for (int i = 0; i < 6; ++i) read[i] = Jet(reading[i]) + slope[i] * (seeded.delay - mount.delay);
+  const Eigen::Matrix<Jet, 6, 1> wrench = seeded.atTip(read, R_BT);
+  Eigen::Matrix<double, 6, Eigen::Dynamic> derivative(6, static_cast<long>(parameters.size()));
+  derivative.setZero();
+  for (size_t k = 0; k < parameters.size(); ++k)
+    for (int n = 0; n < kNumbers; ++n)
+      if (parameters[k].kind == kKnown[n].kind)
+        for (int i = 0; i < 6; ++i) derivative(i, static_cast<long>(k)) = wrench[i].v[n];
+  return derivative;
+}
+
+}  // namespace live_stiffness
