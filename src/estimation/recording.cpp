@@ -123,7 +123,8 @@ std::vector<int> quasiStaticSamples(const Recording& recording, const QuasiStati
   const int count = static_cast<int>(samples.size());
   std::vector<bool> dropped(count, false);
   for (int i = 0; i < count; ++i) {
-    for (int j = i + 1; j < count && samples[j].time - samples[i].time <= rule.window + 1e-9; ++j) {
+    const auto isNear = [&](int j) { return j == i + 1 || samples[j].time - samples[i].time <= rule.window + 1e-9; };
+    for (int j = i + 1; j < count && isNear(j); ++j) {
       const double change = (samples[j].pressures - samples[i].pressures).cwiseAbs().maxCoeff();
       if (!(change > rule.change)) continue;
       int k = i;

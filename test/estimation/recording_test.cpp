@@ -155,6 +155,15 @@ TEST(QuasiStatic, KeepsSlowRampsAndSmallNoise) {
   EXPECT_EQ(quasiStaticSamples(recording).size(), recording.samples.size());
 }
 
+TEST(QuasiStatic, SeesMotionBetweenSamplesFartherApartThanItsWindow) {
+  // 6 kPa/s with a sample every 0.5 s: none lies within 0.25 s of another.
+  Recording recording = sampled(3.0, [](double t) { return 1e5 + 6000.0 * t; });
+  std::vector<RecordedSample> few;
+  for (size_t k = 0; k < recording.samples.size(); k += 10) few.push_back(recording.samples[k]);
+  recording.samples = few;
+  EXPECT_TRUE(quasiStaticSamples(recording).empty());
+}
+
 TEST(Unloaded, IsBelowTheForceOrWithoutSensor) {
   RecordedSample sample;
   EXPECT_TRUE(isUnloaded(sample));

@@ -72,7 +72,7 @@ kill -0 $node || fail "the node died"
 echo "- the same with a nodelet"
 kill $node; wait $node || true
 # With a sanitizer, scripts/test says how the manager is to be started, which is not built with it.
-${NODELET_PREFIX:-} rosrun nodelet nodelet manager __name:=manager >"$work/manager.log" 2>&1 &
+rosrun ${NODELET_PREFIX:+--prefix "$NODELET_PREFIX"} nodelet nodelet manager __name:=manager >"$work/manager.log" 2>&1 &
 manager=$!
 rosrun nodelet nodelet load live_stiffness/StiffnessNodelet manager __name:=stiffness_node "_scene_file:=$scene" \
   >"$work/load.log" 2>&1 &
