@@ -25,7 +25,7 @@ void ArrayInput::subscribe() {
 
 void ArrayInput::tend() {
   watch_.notice(ros::Time::now());
-  if (subscribe_ && isStale() && subscriber_.getNumPublishers() == 0) subscribe();
+  if (subscribe_ && isStale() && subscriber_.getNumPublishers() == 0 && watch_.mayRetry()) subscribe();
 }
 
 void ArrayInput::take(const Reading<Eigen::VectorXd>& reading, const std::string& publisher) {

@@ -57,6 +57,8 @@ ros::Time InputWatch::stampFor(const ros::Time& stamp, const ros::Time& now) {
   return now;
 }
 
+bool InputWatch::mayRetry() { return isDue(retried_, 1.0); }
+
 void InputWatch::number(const std::string& publisher, uint32_t sequence) {
   constexpr uint32_t kRenumbered = 100000;  // more at once is no loss
   const uint32_t step = sequence - sequence_;

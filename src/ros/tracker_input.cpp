@@ -27,6 +27,7 @@ TrackerInput::TrackerInput(const ros::NodeHandle& node, const NodeParameters& pa
 void TrackerInput::tend() {
   watch_.notice(ros::Time::now());
   if (!parameters_.tracker_tf_frame.empty() || freshTip() || subscriber_.getNumPublishers() > 0) return;
+  if (!watch_.mayRetry()) return;
   subscriber_.shutdown();  // first, else the new one shares its connections and with them the type
   subscribe();
 }

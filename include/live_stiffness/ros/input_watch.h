@@ -28,6 +28,9 @@ class InputWatch {
   // Forgets everything but counts if time jumped back, as when a bag is played in a loop. Call it now and then.
   void notice(const ros::Time& now);
 
+  // True at most once a second: to subscribe anew, which must not be so often that no connection is made between.
+  bool mayRetry();
+
   // A message of a publisher that numbers them: counts those that were lost between it and the one before, in the
   // publisher's queue or in ours.
   void number(const std::string& publisher, uint32_t sequence);
@@ -52,7 +55,7 @@ class InputWatch {
   std::string name_, current_fault_;
   ros::Time last_accepted_, last_stamp_;  // when the last good message arrived, and the stamp used for it
   ros::Time last_raw_stamp_;              // that the newest message came with
-  ros::WallTime fault_logged_, stamp_logged_, overtaken_;
+  ros::WallTime fault_logged_, stamp_logged_, overtaken_, retried_;
   double rate_ = 0.0;           // of good messages, 1/s, smoothed
   double foreign_offset_ = 0.0;  // of the newest stamp from ROS time, s; 0: of the same clock
   long accepted_ = 0, rejected_ = 0, foreign_stamps_ = 0, out_of_order_ = 0, lost_ = 0;
