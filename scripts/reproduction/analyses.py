@@ -107,7 +107,7 @@ def figure10(context):
         "eigenstiffness of the material compliance. The paper interpolates from fewer; here every configuration is a "
         "point, the softest on top." % (count ** 3, count)))
     path = os.path.join(context.data, "figure10.csv")
-    context.programs.run("stiffness_map", [context.programs.scene("paper_one_segment"), "--channels", "3", "--grid",
+    context.programs.run("stiffness_map", [context.programs.scene("paper_one_segment"), "--channels", "3", "--pressures",
                                            "0:1e5:%d" % count, "--compliance", "material", "-o", path])
     script = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "plot_stiffness_map")
     for which, column, words in (("largest", "eta_1_n", "Largest"), ("smallest", "eta_3_n", "Smallest")):

@@ -20,14 +20,14 @@ bool readNumbers(const std::string& text, char separator, std::vector<double>& n
 std::vector<PressureRange> readRanges(const MapArguments& arguments, FaultList& faults) {
   std::vector<PressureRange> ranges;
   const size_t wanted = arguments.random > 0 ? 2 : 3;
-  for (const std::string& text : arguments.grid) {
+  for (const std::string& text : arguments.pressures) {
     std::vector<double> numbers;
     const bool good =
         readNumbers(text, ':', numbers) && (numbers.size() == 3 || numbers.size() == wanted) &&
         (numbers.size() < 3 || (numbers[2] >= 1.0 && numbers[2] <= 1e9 && numbers[2] == std::floor(numbers[2])));
     if (good) ranges.push_back({numbers[0], numbers[1], numbers.size() > 2 ? static_cast<long>(numbers[2]) : 1});
     else
-      faults.add("grid = " + text + ": must be FROM:TO:COUNT, gauge pressures in Pa and a whole number from 1 to 1e9" +
+      faults.add("pressures = " + text + ": must be FROM:TO:COUNT, gauge pressures in Pa and a whole number from 1 to 1e9" +
                  (wanted == 2 ? "; with --random FROM:TO will do" : "") + ", for example 0:1e5:21");
   }
   return ranges;

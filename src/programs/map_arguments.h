@@ -14,7 +14,7 @@ namespace live_stiffness {
 struct MapArguments {
   std::string scene, model, stepping, criterion = "largest_eigenstiffness", compliance = "tangent", output = "-", npy;
   std::string channel_of_chamber, find, direction = "x", at;
-  std::vector<std::string> grid;
+  std::vector<std::string> pressures;
   double accuracy = 1e-6, max_bar = 1.0, tolerance_mm = 0.1;
   long random = 0;
   std::uint64_t seed = 1;
@@ -24,7 +24,7 @@ struct MapArguments {
 // Numbers between separators; false unless all of the text is.
 bool readNumbers(const std::string& text, char separator, std::vector<double>& numbers);
 
-// Of --grid; faults are added.
+// Of --pressures; faults are added.
 std::vector<PressureRange> readRanges(const MapArguments& arguments, FaultList& faults);
 
 // Of --channel-of-chamber or --channels. Throws ConfigurationError.

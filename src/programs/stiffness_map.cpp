@@ -116,8 +116,8 @@ int find(const StiffnessModel& model, const ChannelMap& channels, const MapArgum
 }
 
 const char kHelp[] =
-    "stiffness_map SCENE.yaml --grid FROM:TO:COUNT [options] > map.csv\n"
-    "stiffness_map SCENE.yaml --grid FROM:TO --random N [--seed S] [options] > map.csv\n"
+    "stiffness_map SCENE.yaml --pressures FROM:TO:COUNT [options] > map.csv\n"
+    "stiffness_map SCENE.yaml --pressures FROM:TO --random N [--seed S] [options] > map.csv\n"
     "stiffness_map SCENE.yaml --find stiffest|softest --direction x|y|z|dx,dy,dz --at x,y,z [options]\n\n"
     "The first two solve every configuration on all cores, without wrench at the tip, and write\n"
     "  p_1_pa..p_N_pa  gauge pressure of every chamber, base to tip, as stiffness_solve takes them\n"
@@ -136,9 +136,9 @@ int main(int argc, char** argv) {
   po::options_description options("Options");
   options.add_options()
     ("help,h", "print this and exit")
-    ("grid", po::value(&a.grid)->composing(), "FROM:TO:COUNT, gauge Pa, both ends included; once for all channels, or "
-                                              "again for each")
-    ("random", po::value(&a.random), "so many random configurations within the ranges of --grid instead")
+    ("pressures", po::value(&a.pressures)->composing(),
+     "FROM:TO:COUNT, gauge Pa, both ends included; once for all channels, or again for each")
+    ("random", po::value(&a.random), "so many random configurations within the ranges of --pressures instead")
     ("seed", po::value(&a.seed)->default_value(a.seed), "of the random numbers")
     ("channels", po::value(&a.channels),
      "channels that feed neighbouring chambers, 3 for the paper's pairs; default: one for each chamber")
@@ -166,11 +166,15 @@ int main(int argc, char** argv) {
     ("scene", po::value(&a.scene)->required(), "scene file");
   po::positional_options_description positional;
   positional.add("scene", 1);
-  // --max_bar is --max-bar.
+  // --max_bar is --max-bar, and --pressures was once called --grid.
   std::vector<std::string> words(argv + 1, argv + argc);
-  for (std::string& word : words)
+  const std::string former = "--grid";
+  for (std::string& word : words) {
+    if (word == former || word.compare(0, former.size() + 1, former + "=") == 0)
+      word.replace(0, former.size(), "--pressures");
     if (word.compare(0, 2, "--") == 0)
       std::replace(word.begin(), word.begin() + std::min(word.find('='), word.size()), '_', '-');
+  }
   try {
     po::variables_map values;
     po::store(po::command_line_parser(words)
@@ -186,7 +190,7 @@ int main(int argc, char** argv) {
     po::notify(values);
     FaultList faults("options");
     const bool finds = values.count("find") > 0;
-    if (finds == (values.count("grid") > 0)) faults.add("give either --grid or --find");
+    if (finds == (values.count("pressures") > 0)) faults.add("give either --pressures or --find");
     if (values.count("random")) faults.check("random", static_cast<double>(a.random), {1.0, 1e9});
     if (values.count("channels")) faults.check("channels", a.channels, {1.0, 1.0 * ChannelMap::kMaxChannels});
     if (values.count("channels") && values.count("channel-of-chamber"))

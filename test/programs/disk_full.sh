@@ -40,7 +40,7 @@ fails "$disk/out.bag" "$programs/replay" "$work/session.bag" --scene "$scene" -o
 awk 'BEGIN { print "time_s,pressure_1_pa,pressure_2_pa,pressure_3_pa,tip_x_m,tip_y_m,tip_z_m,tip_qw,tip_qx,tip_qy,tip_qz"
   for (i = 0; i < 4000; ++i) print i / 40 ",1e4,0,0," 1e-6 * i ",0,0.05,1,0,0,0" }' >"$work/recording.csv"
 fails "$disk/recording.bag" "$programs/recording_to_bag" "$work/recording.csv" "$disk/recording.bag"
-fails "$disk/map.csv" "$programs/stiffness_map" "$scene" --grid 0:1e5:4 -o "$disk/map.csv"
+fails "$disk/map.csv" "$programs/stiffness_map" "$scene" --pressures 0:1e5:4 -o "$disk/map.csv"
 "$programs/register_recording" "$scene" "$work/session.bag" "$work/registration.yaml" >/dev/null 2>&1
 fails "$disk/wrench.csv" "$programs/estimate_wrench" "$scene" "$work/session.bag" --registration "$work/registration.yaml" \
   -o "$disk/wrench.csv"

@@ -9,7 +9,7 @@ map() { status=0; "$program" "$@" >"$work/out" 2>"$work/err" || status=$?; }
 one=$scenes/paper_one_segment.yaml two=$scenes/paper_two_segments.yaml
 
 # A grid with failing corners: every row there, in order, with its status.
-map "$one" --channels 3 --grid 0:4e5:4 --npy "$work/map.npy"
+map "$one" --channels 3 --pressures 0:4e5:4 --npy "$work/map.npy"
 [ $status = 0 ] || fail "exit status $status of a grid"
 [ "$(head -1 "$work/out" | cut -d, -f1,6-8,14,15,21)" = p_1_pa,p_6_pa,status,x_m,qz,eta_1_n,tau_n ] || fail header
 [ "$(wc -l <"$work/out")" = 65 ] || fail "64 rows"
@@ -27,11 +27,11 @@ eval(data[10:10 + length])
 " "$work/map.npy" || fail "NumPy array"
 
 # A sample: the seed decides, the number of threads does not.
-map "$one" --channels 3 --grid 0:1e5 --random 500 --seed 3 --threads 1 --criterion directional:1,1,0; cp "$work/out" "$work/first"
-map "$one" --channels 3 --grid 0:1e5 --random 500 --seed 3 --threads 2 --criterion directional:1,1,0
+map "$one" --channels 3 --pressures 0:1e5 --random 500 --seed 3 --threads 1 --criterion directional:1,1,0; cp "$work/out" "$work/first"
+map "$one" --channels 3 --pressures 0:1e5 --random 500 --seed 3 --threads 2 --criterion directional:1,1,0
 cmp "$work/first" "$work/out" || fail "threads change the table"
 head -1 "$work/out" | grep -q tau_n_per_m || fail unit
-map "$one" --channels 3 --grid 0:1e5 --random 500 --seed 4
+map "$one" --channels 3 --pressures 0:1e5 --random 500 --seed 4
 cmp -s "$work/first" "$work/out" && fail "the seed changes nothing"
 
 # The search.
@@ -42,19 +42,20 @@ map "$one" --channels 3 --find softest --direction 0,0,1 --at 0,0,1 --starts 2
 
 # Bad input: exit 2, and the message names the option.
 bad() { local word=$1; shift; map "$@"; [ $status = 2 ] && grep -q -- "$word" "$work/err" || fail "bad input $*"; }
-bad "either --grid or --find" "$one"
-bad "grid = 1:2" "$one" --grid 1:2
-bad "grid = 0:1e5:0" "$one" --grid 0:1e5:0
-bad "criterion = stiff" "$one" --grid 0:1e5:3 --criterion stiff
+bad "either --pressures or --find" "$one"
+bad "pressures = 1:2" "$one" --pressures 1:2
+bad "pressures = 0:1e5:0" "$one" --pressures 0:1e5:0
+bad "pressures = 0:1" "$one" --grid 0:1  # its former name
+bad "criterion = stiff" "$one" --pressures 0:1e5:3 --criterion stiff
 bad "find = x" "$one" --find x --at 0,0,0
 bad "at = (missing)" "$one" --find softest
 bad "max-bar = -1" "$one" --find softest --at 0,0,0 --max-bar -1
-bad "random = 0" "$one" --grid 0:1e5 --random 0
-bad "must be finite\|must be >=" "$one" --grid=-9e9:1e5:3
-bad "multiple\|chambers" "$one" --channels 4 --grid 0:1e5:3
-bad "chambers" "$two" --channel-of-chamber 0,0,1,1,2,2 --grid 0:1e5:3
-bad "cannot be read" /nonexistent.yaml --grid 0:1e5:3
-bad "cannot be written" "$one" --grid 0:1e5:1 -o /nonexistent/map.csv
+bad "random = 0" "$one" --pressures 0:1e5 --random 0
+bad "must be finite\|must be >=" "$one" --pressures=-9e9:1e5:3
+bad "multiple\|chambers" "$one" --channels 4 --pressures 0:1e5:3
+bad "chambers" "$two" --channel-of-chamber 0,0,1,1,2,2 --pressures 0:1e5:3
+bad "cannot be read" /nonexistent.yaml --pressures 0:1e5:3
+bad "cannot be written" "$one" --pressures 0:1e5:1 -o /nonexistent/map.csv
 map --help
 [ $status = 0 ] && grep -q "stiffest|softest" "$work/out" || fail help
 echo ok
