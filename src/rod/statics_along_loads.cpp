@@ -1,12 +1,16 @@
 // How StaticsSolver finds the stable equilibrium that a robot comes to as its loads grow from zero.
 
+#include <algorithm>
+
 #include "live_stiffness/rod/stability.h"
 #include "live_stiffness/rod/statics.h"
 
 namespace live_stiffness {
 namespace {
 
-constexpr double kRoughShape = 1e-3;  // error of discretisation that does for loads on the way to the last
+constexpr double kRough = 1e-3;  // accuracy that does for loads on the way to the last: of elements, sweeps and columns
+constexpr double kLittle = 3.0;  // load number
+constexpr double kFarFromBuckling = 4.0;  // amplification up to which sweeps may be as rough
 
 }  // namespace
 
@@ -14,11 +18,15 @@ constexpr double kRoughShape = 1e-3;  // error of discretisation that does for l
 class StaticsSolver::Finder : public EquilibriumFinder {
  public:
   Finder(StaticsSolver& solver, const DeadLoads& last, Backbone& backbone, StaticsReport& report)
-      : solver_(solver), last_(last), backbone_(backbone), report_(report) {}
+      : solver_(solver), accuracy_(solver.accuracy_), last_(last), backbone_(backbone), report_(report),
+        loads_are_little_(loadNumber(solver.chain_, last, backbone) < kLittle) {}
+  ~Finder() override { solver_.accuracy_ = accuracy_; }
 
   std::optional<Equilibrium> settle(const DeadLoads& loads, const Vector3& base_moment) override {
     prepare(solver_.chain_, loads, backbone_);
     const bool is_last = loads.gravity == last_.gravity && loads.tip == last_.tip;
+    const bool is_rough = !is_last && loads_are_little_ && solver_.amplification_ < kFarFromBuckling;
+    solver_.accuracy_ = is_rough ? std::max(accuracy_, kRough) : accuracy_;
     Vector3 guess = base_moment;
     bool refined = false;
     do {
@@ -28,7 +36,7 @@ class StaticsSolver::Finder : public EquilibriumFinder {
         return std::nullopt;
       }
       guess = solver_.base_moment_;
-    } while ((refined = refine(loads, is_last ? solver_.accuracy_ : kRoughShape)));
+    } while ((refined = refine(loads, is_last ? accuracy_ : kRough)));
     return Equilibrium{solver_.base_moment_, backbone_.X_BT.p, solver_.tangent_,
                        solver_.isStable(loads, backbone_, report_)};
   }
@@ -40,7 +48,6 @@ class StaticsSolver::Finder : public EquilibriumFinder {
   bool settleQuickly(const DeadLoads& loads, const Vector3& base_moment, bool refined) {
     // Of rods that the loads bend little sweeps converge surely. Under more load a base moment must be known to more
     // digits than they give, and Newton's method is not to be kept waiting.
-    constexpr double kLittle = 3.0;  // load number
     const bool is_little = loadNumber(solver_.chain_, loads, backbone_) < kLittle;
     const int few_sweeps = is_little ? 30 : 12;
     const double far_from_buckling = is_little ? 8.0 : 4.0;  // amplification
@@ -70,9 +77,11 @@ class StaticsSolver::Finder : public EquilibriumFinder {
   }
 
   StaticsSolver& solver_;
+  const double accuracy_;
   const DeadLoads& last_;
   Backbone& backbone_;
   StaticsReport& report_;
+  const bool loads_are_little_;
 };
 
 // Sweeps to the finest goal from a solution; takes it back if they fail.
