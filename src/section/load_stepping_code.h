@@ -70,7 +70,7 @@ LoadStepperOf<T>::LoadStepperOf(const CrossSectionOf<T>& section)
 }
 
 template <class T>
-typename LoadStepperOf<T>::Actuation LoadStepperOf<T>::actuation(const PressuresRefOf<T>& pressures) const {
+typename LoadStepperOf<T>::Actuation LoadStepperOf<T>::actuation(PressuresRefOf<T> pressures) const {
   Vector3Of<T> wrench = Vector3Of<T>::Constant(T(0.0));
   for (int k = 0; k < pressures.size(); ++k)
     wrench += wrench_of_pressures_.col(k) * T(pressures[k] + area_growth_ * pressures[k] * pressures[k]);

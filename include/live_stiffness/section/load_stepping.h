@@ -52,7 +52,7 @@ class LoadStepperOf {
     }
   };
 
-  Actuation actuation(const PressuresRefOf<T>& pressures) const;
+  Actuation actuation(PressuresRefOf<T> pressures) const;
   RestStateOf<T> fixedSteps(const Actuation& on, int steps) const;
   RestStateOf<T> fixedMaterialSteps(const Actuation& on, int steps) const;
   RestStateOf<T> linearStep(const Actuation& on) const;
