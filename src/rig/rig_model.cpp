@@ -37,6 +37,7 @@ void checkNumbers(const RigOptions& options, FaultList& faults) {
   faults.check("rotation_noise_rad", options.rotation_noise, {0.0, 0.5});
   faults.check("drop_out_probability", options.drop_out_probability, {0.0, 1.0});
   faults.check("drop_out_duration_s", options.drop_out_duration, {0.0, 3600.0});
+  faults.check("tracker_delay_s", options.registration.tracker_delay, {0.0, Registration::kLargestDelay});
   checkPose("base_in_tracker", options.registration.X_AB, faults);
   checkPose("sensor_on_tip", options.registration.X_TS, faults);
   if (!options.tip_wrench.allFinite()) faults.add("tip_wrench: must be finite");
@@ -108,13 +109,14 @@ Pressures RigModel::slowError(double time) const {
   return error;
 }
 
-std::optional<Pose> RigModel::track(const Pose& X_BT, double time) {
+std::optional<Pose> RigModel::track(double time) {
   if (time < drop_out_until_) return std::nullopt;
   if (std::uniform_real_distribution<double>(0.0, 1.0)(random_) < options_.drop_out_probability) {
     drop_out_until_ = time + options_.drop_out_duration;
     return std::nullopt;
   }
-  Pose X_AS = options_.registration.sensorPose(X_BT);
+  const Registration& registration = options_.registration;
+  Pose X_AS = registration.sensorPose(history_.at(time - registration.tracker_delay).X_BT);
   X_AS.p += whiteNoise(random_, options_.position_noise);
   X_AS.R *= expSo3(whiteNoise(random_, options_.rotation_noise));
   return X_AS;
@@ -138,7 +140,8 @@ RigSample RigModel::step(double time) {
   const std::optional<Pose> X_BT = robot_.solve(sample.effective_chambers, options_.tip_wrench + sample.contact_wrench);
   if (!X_BT) throw std::runtime_error("the simulated robot finds no equilibrium at " + numberText(time) + " s");
   sample.X_BT = *X_BT;
-  sample.X_AS = track(sample.X_BT, time);
+  history_.add({time, sample.effective_chambers, sample.X_BT});
+  sample.X_AS = track(time);
   time_ = time;
   return sample;
 }

@@ -69,6 +69,17 @@ TEST(RigModel, IdealRigShowsTheFineRobotThroughTheTracker) {
   }
 }
 
+TEST(RigModel, LateTrackerShowsWhereTheRobotWas) {
+  RigOptions o = ideal();
+  o.registration.tracker_delay = 0.25;
+  const std::vector<RigSample> samples = run(RigModel(scene(), o), 10.0, 0.125);
+  for (size_t k = 2; k < samples.size(); ++k) {
+    const Pose then = o.registration.sensorPose(samples[k - 2].X_BT);
+    EXPECT_LT((samples[k].X_AS->p - then.p).norm(), 1e-12);
+    EXPECT_LT((samples[k].X_AS->R - then.R).norm(), 1e-11);
+  }
+}
+
 TEST(RigModel, RegulatorErrorStaysWithinItsBoundAndUsesMostOfIt) {
   double worst = 0.0;
   for (const RigSample& sample : run(RigModel(scene(), options()), 120.0, 0.25)) {
@@ -212,6 +223,7 @@ TEST(RigModel, RefusesBadOptionsAllAtOnce) {
   o.drop_out_probability = 1.1;
   o.drop_out_duration = -1.0;
   o.registration.X_AB.R.setZero();
+  o.registration.tracker_delay = -0.1;
   o.registration.X_TS.p.x() = std::nan("");
   o.tip_wrench[2] = std::numeric_limits<double>::infinity();
   o.contact.duration = 0.0;
@@ -220,7 +232,7 @@ TEST(RigModel, RefusesBadOptionsAllAtOnce) {
     RigModel(scene(), o);
     FAIL() << "accepted";
   } catch (const ConfigurationError& error) {
-    EXPECT_EQ(error.faults().size(), 18u) << error.what();
+    EXPECT_EQ(error.faults().size(), 19u) << error.what();
   }
 }
 

@@ -13,6 +13,7 @@
 #include <random>
 #include <vector>
 
+#include "live_stiffness/estimation/motion_history.h"
 #include "live_stiffness/estimation/registration.h"
 #include "live_stiffness/rig/contact.h"
 #include "live_stiffness/rig/fine_robot.h"
@@ -37,7 +38,8 @@ struct RigOptions {
   double creep_fraction = 0.05;       // 0 to 0.5
   double creep_time_constant = 2.0;   // s; 0.01 to 1000
 
-  Registration registration;  // X_AB and X_TS of the rig; rotations must be orthonormal to 1e-6
+  // X_AB and X_TS of the rig, rotations orthonormal to 1e-6; and by how much its tracker is late, 0 to kLargestDelay.
+  Registration registration;
 
   // White and isotropic. Both are RMS values of the error's *magnitude*, as trackers are specified: each of the three
   // components has the standard deviation value / sqrt(3). The rotation error is a small turn in the sensor's axes.
@@ -55,7 +57,7 @@ struct RigSample {
   Pressures command;             // gauge, Pa, one per channel
   Pressures measured_channels;   // gauge, Pa, one per channel: what the regulator reports
   Pressures measured_chambers;   // the same, one per chamber
-  std::optional<Pose> X_AS;      // tracker sample; empty during a drop-out
+  std::optional<Pose> X_AS;      // tracker sample, of how the robot stood a delay before; empty during a drop-out
   Pressures actual_chambers;     // truth: gauge, Pa, never negative (a regulator cannot pull)
   Pressures effective_chambers;  // truth: after creep
   Wrench contact_wrench;         // truth: what the pusher exerts at T, base axes; its moment is about T
@@ -83,7 +85,7 @@ class RigModel {
 
  private:
   Pressures slowError(double time) const;
-  std::optional<Pose> track(const Pose& X_BT, double time);
+  std::optional<Pose> track(double time);
 
   RigOptions options_;
   ChannelMap channel_map_;
@@ -93,6 +95,7 @@ class RigModel {
   FirstOrderLag regulator_;  // of channels
   FirstOrderLag creep_;      // of chambers
   Contact contact_;
+  MotionHistory history_;
   std::vector<Vector3> error_phases_;  // rad, three components per channel
   double time_ = 0.0;
   double drop_out_until_ = -1.0;  // s
