@@ -136,7 +136,7 @@ bool StaticsSolver::newton(const DeadLoads& loads, Backbone& backbone, int max_i
 // On a long taut chain the columns are far larger than the compliance made of them, as they are near a fold. Then so
 // much of x, and of rounding, is left, too.
 bool StaticsSolver::findTangent(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
-  constexpr double kRounding = 2e-16;
+  constexpr double kRounding = 1e-15;  // some units in the last place, of sums over all elements
   constexpr double kEnough = 2.0;  // growth is known afterwards only; seldom does a little of it take another round
   const double goal = 0.2 * accuracy_, shape = report.iteration;
   const bool self_adjoint = angular(loads.tip).isZero(0.0);
