@@ -58,7 +58,7 @@ class Pushes:
     def fit_mounted(self, name, recording, delay):
         """The same to the lateral force, and how the sensor is mounted: the fit, and the mount as options."""
         fit = self.fit(name, recording, LATERAL, delay, LOADED + MOUNT)
-        return fit, [*LATERAL, *re.search("force sensor as found: (.*)", fit.printed).group(1).split()] if fit else []
+        return fit, re.search("force sensor as found: (.*)", fit.printed).group(1).split() if fit else []
 
     def without_push(self, push):
         """A file of load_1 without the samples of one push."""
@@ -108,9 +108,9 @@ class Pushes:
             "from where it stood, it reaches %s N (the lateral reading: %s N)," % tuple(
                 ", ".join("%.2f" % force for force in forces) for forces in zip(*early)), "and with it neither the sensor as it is nor one reversed and turned by 180 deg explains the pushes as well as",
             "the lateral reading alone does, in the tip's own axes as it is. A share of it shows in the lateral channels, though, as it",
-            "does by crosstalk or when the sensor's axis leans by some degrees: the fit takes it off. What is left is more than the",
-            "model leaves at rest: the lines of a push and of its release differ (figure), as they do with friction and viscosity,",
-            "which no model here has.", "",
+            "does by crosstalk or when the sensor's axis leans by some degrees: so the fit says. Pushes left out hardly profit (last row):",
+            "four are few for so many parameters. What is left is more than the model leaves at rest: the lines of a push and",
+            "of its release differ (figure), as they do with friction and viscosity, which no model here has.", "",
             "![](figures/accuracy_deflections.svg)", "")
         self.draw(self.predict("pushes, fitted", fit.scene, mount, delay),
                   self.predict("pushes, fitted, without force", fit.scene, None, delay))
@@ -210,6 +210,6 @@ class Force:
             "parameters were chosen with `load_1` in view, before its delay and the sensor's idle axis were known; none was changed after.", "",
             "![](figures/accuracy_forces.svg)", "")
         report.target("force during pushes, all channels of the sensor, RMS", 0.12, scores["all channels", ""]["rms_n"], "N")
-        report.target("force during pushes, lateral channels, RMS", 0.12, lateral["rms_n"], "N")
+        report.target("force during pushes, what the lateral channels see of it, RMS", 0.12, lateral["rms_n"], "N")
         report.target("the same, along the tip's two compliant axes, RMS", 0.12, lateral["rms_compliant_n"], "N")
         report.target("longest contact above 0.1 N outside pushes", 1.0, lateral["longest_false_s"], "s")

@@ -6,7 +6,7 @@ namespace live_stiffness {
 namespace {
 
 // How well it is known before any measurement: sensors are screwed on by eye, and a clock of its own is a sample or so
-// off.
+// off. reach: either way from the start; zero: from -1 to 1.
 struct Known {
   const char* name;
   ParameterKind kind;
@@ -16,9 +16,9 @@ constexpr double kDegree = kPi / 180.0;
 constexpr Known kKnown[] = {
     {"force_sensor_azimuth_deg", ParameterKind::kForceSensorAzimuth, 5.0 * kDegree, 30.0 * kDegree, kDegree},
     {"force_sensor_height_m", ParameterKind::kForceSensorHeight, 0.02, 0.1, 1.0},
-    {"force_sensor_crosstalk_x", ParameterKind::kForceSensorCrosstalkX, 0.05, 0.5, 1.0},
-    {"force_sensor_crosstalk_y", ParameterKind::kForceSensorCrosstalkY, 0.05, 0.5, 1.0},
-    {"force_sensor_delay_s", ParameterKind::kForceSensorDelay, 0.05, 0.5, 1.0},
+    {"force_sensor_crosstalk_x", ParameterKind::kForceSensorCrosstalkX, 0.05, 0.0, 1.0},
+    {"force_sensor_crosstalk_y", ParameterKind::kForceSensorCrosstalkY, 0.05, 0.0, 1.0},
+    {"force_sensor_delay_s", ParameterKind::kForceSensorDelay, 0.05, 0.0, 1.0},
 };
 
 // Number of the mount that a parameter stands for, or nullptr.
@@ -48,8 +48,8 @@ std::optional<SceneParameter> forceSensorParameter(const std::string& name, cons
     parameter.kind = known.kind;
     parameter.start = parameter.prior_mean = *numberOf(numbers, known.kind);
     parameter.prior_sigma = known.sigma;
-    parameter.low = parameter.start - known.reach;
-    parameter.high = parameter.start + known.reach;
+    parameter.low = known.reach > 0.0 ? parameter.start - known.reach : -1.0;
+    parameter.high = known.reach > 0.0 ? parameter.start + known.reach : 1.0;
     parameter.unit = known.unit;
     return parameter;
   }

@@ -28,7 +28,7 @@ const char* const kHelp =
     "calibrate SCENE.yaml [RECORDING.csv|.bag ...] [--compliance-table TABLE.csv ...] [--parameters NAME ...]\n\n"
     "Fits parameters of the scene, and the registration of each recording (base in tracker, sensor on tip), together.\n"
     "Prints estimates with standard errors, what the data cannot tell apart, and errors with blocks left out.\n"
-    "`--parameters none` registers only. `--list` prints the parameters that the scene has.\n\n";
+    "`--parameters none` registers only. `--list` prints the parameters of the scene and of a force sensor.\n\n";
 
 struct Arguments {
   std::string scene, output, registration, residuals, model, stepping, samples = "all", loads = "ignore", rows;

@@ -57,7 +57,12 @@ ros::Time InputWatch::stampFor(const ros::Time& stamp, const ros::Time& now) {
   return now;
 }
 
-bool InputWatch::mayRetry() { return isDue(retried_, 1.0); }
+bool InputWatch::mayRetry() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now - retried_ < std::chrono::seconds(1)) return false;
+  retried_ = now;
+  return true;
+}
 
 void InputWatch::number(const std::string& publisher, uint32_t sequence) {
   constexpr uint32_t kRenumbered = 100000;  // more at once is no loss

@@ -59,7 +59,7 @@ const std::vector<std::string>& forceSensorParameterNames();
 ForceSensorMount withParameters(const ForceSensorMount& mount, const std::vector<SceneParameter>& parameters,
                                 const Eigen::VectorXd& values);
 
-// A sensor's readings along a recording.
+// A sensor's readings along a recording, which must have one at least where they are asked for.
 class ForceReadings {
  public:
   explicit ForceReadings(const Recording& recording);

@@ -27,7 +27,7 @@ struct ContactScore {
   int pushes = 0;              // times that the force rose above kTouch after at least kSettle below it
   int during = 0;              // samples with a true force of at least kTouch; the next eight are over them
   double rms = 0.0, rms_truth = 0.0;                      // error of what the sensor sees of the force, and the force, N
-  double rms_compliant = 0.0, rms_compliant_truth = 0.0;  // the same of the compliant components, N
+  double rms_compliant = 0.0, rms_compliant_truth = 0.0;  // of the compliant components, seen or not, N
   double peak = 0.0, peak_truth = 0.0;                      // largest force, estimated while in contact and true, N
   double peak_compliant = 0.0, peak_compliant_truth = 0.0;  // the same of the compliant components, N
   double seen = 0.0;           // share of samples with contact, of those that have been pushed by kFirm for kSettle

@@ -4,6 +4,7 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/time.h>
 
+#include <chrono>
 #include <string>
 
 namespace live_stiffness {
@@ -28,7 +29,7 @@ class InputWatch {
   // Forgets everything but counts if time jumped back, as when a bag is played in a loop. Call it now and then.
   void notice(const ros::Time& now);
 
-  // True at most once a second: to subscribe anew, which must not be so often that no connection is made between.
+  // True at most once a second, first a second after the start: to subscribe anew, which must not be so often that no connection is made between.
   bool mayRetry();
 
   // A message of a publisher that numbers them: counts those that were lost between it and the one before, in the
@@ -55,7 +56,8 @@ class InputWatch {
   std::string name_, current_fault_;
   ros::Time last_accepted_, last_stamp_;  // when the last good message arrived, and the stamp used for it
   ros::Time last_raw_stamp_;              // that the newest message came with
-  ros::WallTime fault_logged_, stamp_logged_, overtaken_, retried_;
+  ros::WallTime fault_logged_, stamp_logged_, overtaken_;
+  std::chrono::steady_clock::time_point retried_ = std::chrono::steady_clock::now();
   double rate_ = 0.0;           // of good messages, 1/s, smoothed
   double foreign_offset_ = 0.0;  // of the newest stamp from ROS time, s; 0: of the same clock
   long accepted_ = 0, rejected_ = 0, foreign_stamps_ = 0, out_of_order_ = 0, lost_ = 0;
