@@ -108,7 +108,7 @@ class Samples:
         dropped = [False] * len(rows)
         for i, start in enumerate(self.time):
             j = i + 1
-            while j < len(rows) and self.time[j] - start <= 0.25 + 1e-9:
+            while j < len(rows) and (j == i + 1 or self.time[j] - start <= 0.25 + 1e-9):
                 if max(abs(a - b) for a, b in zip(pressures[i], pressures[j])) > 2000.0:
                     for k, t in enumerate(self.time):
                         dropped[k] = dropped[k] or start - 0.3 <= t <= self.time[j] + 1.0

@@ -154,7 +154,11 @@ int run(const Arguments& a, const std::string& command) {
   const auto named = [&](const std::string& name) {
     const auto of_sensor = forceSensorParameter(name, options.force_sensor);
     fits_sensor = fits_sensor || of_sensor;
-    return of_sensor ? *of_sensor : sceneParameter(name, scene, channels);
+    if (of_sensor) return *of_sensor;
+    if (name.compare(0, 6, "force_") != 0) return sceneParameter(name, scene, channels);
+    std::string legal;
+    for (const std::string& other : forceSensorParameterNames()) legal += (legal.empty() ? "" : ", ") + other;
+    throw ConfigurationError("parameters", {"'" + name + "' is none of a force sensor: must be one of " + legal});
   };
   if (a.list) {
     std::vector<std::string> names = sceneParameterNames(scene, channels);

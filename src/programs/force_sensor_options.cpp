@@ -51,10 +51,13 @@ std::string ForceSensorOptions::text(const ForceSensorMount& mount) {
   std::string channels;
   for (size_t k = 0; k < kChannels.size() && mount.gains != Wrench::Ones(); ++k)
     if (mount.gains[static_cast<long>(k)] != 0.0) channels += " " + kChannels[k];
-  return "--force-sensor-sign " + numberText(mount.sign) + " --force-sensor-azimuth-deg " + numberText(degrees(mount.azimuth)) + " --force-sensor-height-m " +
-         numberText(mount.height) + " --force-sensor-crosstalk-x " + numberText(mount.crosstalk[0]) +
-         " --force-sensor-crosstalk-y " + numberText(mount.crosstalk[1]) + " --force-sensor-delay-s " +
-         numberText(mount.delay) + (channels.empty() ? "" : " --force-sensor-channels" + channels);
+  return "--force-sensor-sign " + numberText(mount.sign) +
+         " --force-sensor-azimuth-deg " + numberText(degrees(mount.azimuth)) +
+         " --force-sensor-height-m " + numberText(mount.height) +
+         " --force-sensor-crosstalk-x " + numberText(mount.crosstalk[0]) +
+         " --force-sensor-crosstalk-y " + numberText(mount.crosstalk[1]) +
+         " --force-sensor-delay-s " + numberText(mount.delay) +
+         (channels.empty() ? "" : " --force-sensor-channels" + channels);
 }
 
 }  // namespace live_stiffness

@@ -9,8 +9,10 @@ namespace live_stiffness {
 namespace {
 
 constexpr double kRough = 1e-3;  // accuracy that does for loads on the way to the last: of elements, sweeps and columns
+// Sweeps and columns may be as rough for loads and amplifications up to these. Beyond, the next base moment is extrapolated
+// from errors that rough ones leave, and hard cases lose their way (hard_cases_test).
 constexpr double kLittle = 3.0;  // load number
-constexpr double kFarFromBuckling = 4.0;  // amplification up to which sweeps may be as rough
+constexpr double kFarFromBuckling = 4.0;
 
 }  // namespace
 

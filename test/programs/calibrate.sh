@@ -32,10 +32,12 @@ grep -q 'tracker delay: NOT determined' "$dir/verdict" || fail "a delay was dete
 # Faults: one message, status 2, nothing written.
 for bad in "-p colour" "--blocks -1 -p none" "--samples some" "--prior youngs_modulus_pa=1" "--loads all" "missing.csv" \
     "--tracker-delay-s 3 -p none" "--force-sensor-channels fx gy -p none" "--force-sensor-sign 0 -p none" \
-    "--force-sensor-delay-s nan -p none" "-p force_sensor_height_m" "-p force_sensor_height_m --loads predict"; do
+    "--force-sensor-delay-s nan -p none" "-p force_sensor_height_m" "-p force_sensor_height_m --loads predict" \
+    "-p force_sensor_mass_kg --loads fit"; do
   status=0
   # shellcheck disable=SC2086
   "$calibrate" "$arm" "$dir/rest.csv" $bad -o "$dir/bad.yaml" -q >"$dir/log" 2>&1 || status=$?
   [ $status = 2 ] || fail "calibrate $bad: status $status instead of 2: $(cat "$dir/log")"
   [ ! -e "$dir/bad.yaml" ] || fail "calibrate $bad wrote a scene"
 done
+grep -q "must be one of force_sensor_azimuth_deg" "$dir/log" || fail "what may be fitted of a force sensor is not said"

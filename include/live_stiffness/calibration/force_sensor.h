@@ -18,11 +18,12 @@ struct ForceSensorMountOf {
   T height = T(0.0);     // of its origin above T along z of T, m
   double sign = 1.0;     // 1: it reports what acts on the robot; -1: what the robot exerts
   Wrench gains = Wrench::Ones();  // of its channels [f; m], own axes; 0: that channel is left out
-  Vector2Of<T> crosstalk = Vector2Of<T>::Constant(T(0.0));  // share of its fz that shows in fx and in fy, of sensor and
-                                                            // of an axis that leans; taken off them
+  // Shares of its fz that show in fx and fy, by crosstalk or because its axis leans; they are taken off, -.
+  Vector2Of<T> crosstalk = Vector2Of<T>::Constant(T(0.0));
   T delay = T(0.0);      // by which its readings are late against the pressures, s
 
-  // Dead wrench at T in base axes of a reading [f; m] (its own axes and origin), the tip oriented as R_BT.
+  // Dead wrench at T in base axes of a reading [f; m] (its own axes and origin; N, N m), the tip oriented as R_BT. Its
+  // delay is the reader's affair.
   Eigen::Matrix<T, 6, 1> atTip(const Eigen::Matrix<T, 6, 1>& reading, const Matrix3& R_BT) const {
     using std::cos, std::sin;
     using Vector3T = Vector3Of<T>;
@@ -42,7 +43,7 @@ struct ForceSensorMountOf {
     return wrench;
   }
 
-  // Projects a force (base axes) on what the channels that count can see of it.
+  // 3x3: projects a force (base axes) on what the channels that count can see of it.
   Matrix3 seen(const Matrix3& R_BT) const {
     const Matrix3 R_BF = R_BT * expSo3(Vector3(0.0, 0.0, azimuth));
     return R_BF * Vector3(linear(gains)).asDiagonal() * R_BF.transpose();
@@ -64,8 +65,8 @@ class ForceReadings {
  public:
   explicit ForceReadings(const Recording& recording);
 
-  // What the sensor felt at `time`, as a dead wrench at T in base axes, the tip oriented as R_BT; between readings
-  // linearly.
+  // What the sensor felt at `time` (s): its reading of `delay` later as a dead wrench at T in base axes, the tip oriented
+  // as R_BT. Linear between readings, the nearest one outside.
   Wrench atTip(const ForceSensorMount& mount, double time, const Matrix3& R_BT) const;
   // Its derivatives by the parameters (SI), 6 x parameters; zero by those of the scene.
   Eigen::Matrix<double, 6, Eigen::Dynamic> derivative(const ForceSensorMount& mount,

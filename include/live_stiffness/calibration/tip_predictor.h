@@ -20,7 +20,8 @@ struct TipPrediction {
   Pose X_BT;
   // Twist of T (base axes) by parameter: d p / d value and the small rotation, SI; 6 x parameters.
   Eigen::Matrix<double, 6, Eigen::Dynamic> derivative;
-  Matrix6 compliance;  // twist of T by a dead wrench there (base axes)
+  // Twist [v; w] of T by a dead wrench [f; m] there, base axes, SI, 6x6; zero where the model leaves loads out.
+  Matrix6 compliance;
 };
 
 class TipPredictor {

@@ -54,7 +54,8 @@ Recording parseRecording(const std::string& csv, const std::string& name);
 std::vector<Pressures> gaugePressures(const Recording& recording, double rest_window = 0.5);
 
 // What counts as quasi-static. A channel moves between two samples, at most `window` apart or with none between, whose
-// pressures differ by more than `change`; samples from `before` ahead of the first of the two to `after` past the second are dropped.
+// pressures differ by more than `change`; samples from `before` ahead of the first of the two to `after` past the second
+// are dropped.
 struct QuasiStaticRule {
   double change = 2000.0;  // Pa
   double window = 0.25;    // s

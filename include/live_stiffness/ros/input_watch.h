@@ -29,7 +29,8 @@ class InputWatch {
   // Forgets everything but counts if time jumped back, as when a bag is played in a loop. Call it now and then.
   void notice(const ros::Time& now);
 
-  // True at most once a second, first a second after the start: to subscribe anew, which must not be so often that no connection is made between.
+  // True at most once a second, first a second after the start: to subscribe anew, which must not be so often that no
+  // connection is made between.
   bool mayRetry();
 
   // A message of a publisher that numbers them: counts those that were lost between it and the one before, in the
