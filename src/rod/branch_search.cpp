@@ -13,7 +13,8 @@ constexpr double kFirstAdvance = 0.25;  // share of a leg
 constexpr double kLeastAdvance = 1e-3;  // from zero load on: then it is time to go around
 constexpr double kLeastAdvanceAround = 1e-5;
 constexpr double kMostBending = 0.5;    // rad, by which a step may miss what the last ones let expect
-constexpr double kMostMotion = 0.4;     // of the tip in a step, over the length
+constexpr double kMostMiss = 0.4;       // the same of the tip, over the length
+constexpr double kMotionAimed = 0.35;   // of the tip in a step, over the length; the next one is as long as that lets expect
 constexpr double kFoldGrowth = 5.0;
 constexpr double kPush = 0.05;          // deflection by the push, were the robot unloaded, over its length
 
@@ -51,12 +52,13 @@ Vector3 directionOfCollapse(const Matrix3& C, const Vector3& moved) {
 
 // One straight leg from the loads reached so far, in steps of adaptive size. The base moment of the next step is
 // extrapolated from the last ones: on a long hanging chain a shot strays exponentially, so that a moment scaled with
-// the load would not do.
+// the load would not do. A step that ends elsewhere than that lets expect may have jumped to another branch.
 bool BranchSearch::follow(const DeadLoads& target, double least_advance) {
   const DeadLoads start = loads_;
   std::array<double, kMemory> reached{};  // shares, newest first
-  std::array<Vector3, kMemory> moments;
+  std::array<Vector3, kMemory> moments, tips;
   moments.fill(at_.base_moment);
+  tips.fill(at_.p_BT);
   int known = 1, rejected = 0;
   double advance = kFirstAdvance;
   share_ = 0.0;
@@ -64,17 +66,18 @@ bool BranchSearch::follow(const DeadLoads& target, double least_advance) {
   while (share_ < 1.0) {
     if (advance < least_advance || finder_.exhausted()) return false;
     const double trial = std::min(1.0, share_ + advance);
-    Vector3 guess = Vector3::Zero();
+    Vector3 guess = Vector3::Zero(), expected_tip = Vector3::Zero();
     for (int i = 0; i < known; ++i) {
       double weight = 1.0;  // Lagrange's
       for (int j = 0; j < known; ++j)
         if (j != i) weight *= (trial - reached[j]) / (reached[i] - reached[j]);
       guess += weight * moments[i];
+      expected_tip += weight * tips[i];
     }
     const DeadLoads loads = between(start, target, trial);
     const std::optional<Equilibrium> next = finder_.settle(loads, guess);
     const bool jumped = next && (finder_.bendingOf(next->base_moment - guess) > kMostBending ||
-                                 (next->p_BT - at_.p_BT).norm() > kMostMotion * length_);
+                                 (next->p_BT - expected_tip).norm() > kMostMiss * length_);
     if (!next || !next->stable || jumped) {
       lost_stability_ = next.has_value();
       advance *= 0.4;
@@ -84,15 +87,17 @@ bool BranchSearch::follow(const DeadLoads& target, double least_advance) {
     for (int i = kMemory - 1; i > 0; --i) {
       reached[i] = reached[i - 1];
       moments[i] = moments[i - 1];
+      tips[i] = tips[i - 1];
     }
     share_ = reached[0] = trial;
     moments[0] = next->base_moment;
+    tips[0] = next->p_BT;
     known = std::min(known + 1, kMemory);
     rejected = 0;
     moved_ = next->p_BT - at_.p_BT;
     at_ = *next;
     loads_ = loads;
-    advance *= 1.6;
+    advance *= std::clamp(kMotionAimed * length_ / moved_.norm(), 0.6, 1.6);
   }
   return true;
 }

@@ -12,7 +12,8 @@ constexpr double kRough = 1e-3;  // accuracy that does for loads on the way to t
 // Sweeps and columns may be as rough for loads and amplifications up to these. Beyond, the next base moment is extrapolated
 // from errors that rough ones leave, and hard cases lose their way (hard_cases_test).
 constexpr double kLittle = 3.0;  // load number
-constexpr double kFarFromBuckling = 4.0;
+constexpr double kFarFromBuckling = 4.0;  // amplification
+constexpr double kAwayFromBuckling = 8.0;  // the same, for sweeps at all
 
 }  // namespace
 
@@ -49,12 +50,10 @@ class StaticsSolver::Finder : public EquilibriumFinder {
   // From the shape and the columns of the loads before, or from the base moment that fewer elements have led to.
   bool settleQuickly(const DeadLoads& loads, const Vector3& base_moment, bool refined) {
     // Of rods that the loads bend little sweeps converge surely. Under more load a base moment must be known to more
-    // digits than they give, and Newton's method is not to be kept waiting.
-    const bool is_little = loadNumber(solver_.chain_, loads, backbone_) < kLittle;
-    const int few_sweeps = is_little ? 30 : 12;
-    const double far_from_buckling = is_little ? 8.0 : 4.0;  // amplification
+    // digits than they give, and Newton's method is not to be kept waiting (hard_cases_test).
+    const int few_sweeps = loadNumber(solver_.chain_, loads, backbone_) < kLittle ? 30 : 12;
     const bool has_columns = solver_.nodes_hold_guess_ && solver_.has_columns_;
-    if (!(has_columns || refined) || solver_.amplification_ > far_from_buckling) return false;
+    if (!(has_columns || refined) || solver_.amplification_ > kAwayFromBuckling) return false;
     if (has_columns) {
       const Vector3 step = base_moment - solver_.base_moment_;
       const ChainState chain = stateOf(solver_.chain_, loads, base_moment, backbone_);

@@ -16,6 +16,7 @@ constexpr double kResidualAccepted = 1e-8;  // rad, when rounding stops it short
 constexpr double kRoughColumns = 1e-2;      // relative error, enough for sweeps to converge
 constexpr double kFineColumns = 1e-12;      // for Newton steps where the residual is nearly singular, or huge
 constexpr double kMostAmplification = 1e6;
+constexpr double kSlowSweeps = 0.3;         // rate, beyond which columns found anew are worth what they cost
 constexpr double kQuickestRate = 0.01;      // at which sweeps may be counted on to converge at best
 
 }  // namespace
@@ -34,7 +35,8 @@ bool StaticsSolver::updateInverse(const DeadLoads& loads, double goal, Backbone&
 }
 
 // Sweeps of one pass an element, each followed by a step of the base moment with the kept inverse: shape and moment
-// converge together, linearly, by a factor of about ten a sweep. Without trouble it takes one to ten.
+// converge together, linearly, by a factor of about ten a sweep. Without trouble it takes one to ten. Where the shape has
+// moved too far from that of the columns they are found anew.
 bool StaticsSolver::quick(const DeadLoads& loads, Known known, int max_sweeps, Backbone& backbone,
                           StaticsReport& report) {
   const int sweeps_before_columns = known == Known::kNothing ? 2 : 0;
@@ -43,7 +45,7 @@ bool StaticsSolver::quick(const DeadLoads& loads, Known known, int max_sweeps, B
   const double goal = std::max(0.2 * accuracy_ / amplification_, 1e-15);
   if (known == Known::kNothing) residual_inverse_.setIdentity();  // right but for the load's own effect
   double last = kInfinity;
-  int growing = 0;
+  int growing = 0, last_columns = 0;
   ChainState chain = stateOf(chain_, loads, base_moment_, backbone);
   SweepResult s;
   for (int i = 0; i < max_sweeps && report.iterations < kMaxIterations; ++i) {
@@ -52,7 +54,9 @@ bool StaticsSolver::quick(const DeadLoads& loads, Known known, int max_sweeps, B
     nodes_hold_guess_ = s.sound;
     const double error = std::max(s.change, bendingOf(Vector3(s.residual)));
     if (!s.sound || (growing += error > last) > 3) return false;
-    if (!has_columns && i >= sweeps_before_columns) {
+    const bool is_slow = has_columns && i >= last_columns + 2 && error > kSlowSweeps * last && error > 100.0 * goal;
+    if (is_slow || (!has_columns && i >= sweeps_before_columns)) {
+      last_columns = i;
       SweepResult unchanged;
       backbone.passes->sweep(chain, Pass::kShape, unchanged);
       if (!(has_columns = updateInverse(loads, kRoughColumns, backbone))) return false;
