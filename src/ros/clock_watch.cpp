@@ -1,5 +1,7 @@
 #include "live_stiffness/ros/clock_watch.h"
 
+#include <utility>
+
 namespace live_stiffness {
 
 void ClockWatch::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
@@ -11,6 +13,7 @@ void ClockWatch::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   if ((now - last_).toSec() < -kJump) {
     jump_ = (last_ - now).toSec();
     jumped_ = wall;
+    has_jumped_ = true;
   }
   if (now != last_) moved_ = wall;
   last_ = now;
@@ -25,6 +28,14 @@ void ClockWatch::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
     status.summary(DiagnosticStatus::OK, "ok");
   status.add("simulated", !ros::Time::isSystemTime());
   status.add("now (s)", now.toSec());
+}
+
+void ClockWatch::restartAfterJump(std::vector<ros::Timer>& timers) {
+  if (!std::exchange(has_jumped_, false)) return;
+  for (ros::Timer& timer : timers) {
+    timer.stop();
+    timer.start();
+  }
 }
 
 }  // namespace live_stiffness

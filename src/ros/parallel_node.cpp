@@ -96,7 +96,10 @@ void ParallelNode::addDiagnostics() {
   diagnostics_.add("Clock", &clock_watch_, &ClockWatch::diagnose);
   // Not update(): it waits for ROS time, which may stand still or jump back.
   diagnostics_timer_ = node_.createWallTimer(ros::WallDuration(diagnostics_.getPeriod()),
-                                             [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
+                                             [this](const ros::WallTimerEvent&) {
+                                               diagnostics_.force_update();
+                                               clock_watch_.restartAfterJump(timers_);
+                                             });
 }
 
 }  // namespace live_stiffness

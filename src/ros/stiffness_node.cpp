@@ -62,7 +62,7 @@ StiffnessNode::StiffnessNode(const ros::NodeHandle& node, const ros::NodeHandle&
   const ros::Duration heartbeat(1.0 / parameters_.heartbeat), between_markers(1.0 / parameters_.marker_rate);
   timers_ = {live_.handle(node).createTimer(heartbeat, &StiffnessNode::onHeartbeat, this),
              tracking_.handle(node).createTimer(heartbeat, [this](const ros::TimerEvent&) { tracker_input_.tend(); }),
-             drawing_.handle(node).createTimer(between_markers, &StiffnessNode::onMarkers, this)};
+             drawing_.handle(node).createTimer(between_markers, &StiffnessNode::onMarkers, this), tracker_input_.tfTimer()};
   const std::string fault = parameters_.lock_memory ? lockMemory() : "";
   if (!fault.empty()) ROS_WARN("~lock_memory: memory cannot be locked, going on without: %s", fault.c_str());
   ROS_INFO("%s, stepping %s, %d segment(s), %d chamber(s) on %d channel(s)", modelName(parameters_.model).c_str(),
@@ -227,7 +227,10 @@ void StiffnessNode::addDiagnostics() {
   diagnostics_.add(time_stamps_);
   // Not update(): it waits for ROS time, which may stand still or jump back.
   diagnostics_timer_ = node_.createWallTimer(ros::WallDuration(diagnostics_.getPeriod()),
-                                             [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
+                                             [this](const ros::WallTimerEvent&) {
+                                               diagnostics_.force_update();
+                                               clock_watch_.restartAfterJump(timers_);
+                                             });
 }
 
 }  // namespace live_stiffness

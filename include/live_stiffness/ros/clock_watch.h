@@ -3,6 +3,9 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/time.h>
+#include <ros/timer.h>
+
+#include <vector>
 
 namespace live_stiffness {
 
@@ -10,10 +13,15 @@ class ClockWatch {
  public:
   // To be called by wall time: where time stands still, no timer of ROS time fires.
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
+  // Starts timers of ROS time anew if diagnose() has seen time jump back since the last call. roscpp itself misses about
+  // one jump in ten thousand (when it comes between two of its looks at the clock), and its timers then wait until the
+  // time of before comes again.
+  void restartAfterJump(std::vector<ros::Timer>& timers);
 
  private:
   ros::Time last_;               // at the last call
   double jump_ = 0.0;            // how far time last jumped back, s
+  bool has_jumped_ = false;      // and the timers do not know yet
   ros::WallTime jumped_, moved_;  // when it did, and when it was last seen to advance
 };
 

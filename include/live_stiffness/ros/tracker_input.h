@@ -30,6 +30,8 @@ class TrackerInput {
   bool repeatsItself() const { return unchangedFor() > parameters_.pose_timeout; }
   // Call now and then: a subscriber keeps the type of its first publisher, so it is renewed when that one is gone.
   void tend();
+  // That looks up poses given by tf; empty if they come on a topic.
+  const ros::Timer& tfTimer() const { return tf_timer_; }
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
  private:
