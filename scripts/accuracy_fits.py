@@ -93,8 +93,8 @@ def cells(errors):
 
 
 class Samples:
-    """Which samples of a recording are quasi-static and unloaded, as the data's README defines them, on the clock of a
-    tracker that is late by `delay` s."""
+    """Which samples of a recording are quasi-static, and which of them unloaded, as the data's README defines them, on the
+    clock of a tracker that is late by `delay` s."""
 
     def __init__(self, path, delay=0.0):
         with open(path, newline="") as file:
@@ -115,6 +115,7 @@ class Samples:
                 j += 1
         self.quiet = [not d and f < 0.06 for d, f in zip(dropped, self.force)]
         self.loaded = [f >= 0.06 for f in self.force]
+        self.quiet_loaded = [not d and on for d, on in zip(dropped, self.loaded)]
         self.all = [True] * len(rows)
 
     @staticmethod
