@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 
-#include "any_recording.h"
 #include "force_sensor_options.h"
 #include "live_stiffness/calibration/calibration.h"
 #include "live_stiffness/calibration/calibration_report.h"
@@ -15,6 +14,7 @@
 #include "live_stiffness/estimation/tracker_delay.h"
 #include "live_stiffness/part_file.h"
 #include "live_stiffness/rod/scene_file.h"
+#include "recording_reader.h"
 #include "progress_bar.h"
 
 namespace po = boost::program_options;
@@ -38,6 +38,7 @@ struct Arguments {
   double position_mm = 0.5, rotation_deg = 1.0, compliance = 0.05, correlation = 1.0, huber = 2.0;
   double tracker_delay = 0.0;
   ForceSensorOptions force_sensor;
+  RecordingReader reader;
   int blocks = 8;
   bool no_orientation = false, no_priors = false, list = false, quiet = false;
 };
@@ -45,6 +46,7 @@ struct Arguments {
 po::options_description describe(Arguments& a) {
   po::options_description options("Options");
   a.force_sensor.addTo(options);
+  a.reader.addOptionsTo(options);
   options.add_options()
     ("help,h", "print this and exit")
     ("scene", po::value(&a.scene)->required(), "scene file; its values are the start and the priors' means")
@@ -144,7 +146,7 @@ int run(const Arguments& a, const std::string& command) {
 
   std::vector<CalibrationRecording> recordings;
   for (const std::string& path : a.recordings) {
-    Recording recording = withTrackerDelay(loadAnyRecording(path), a.tracker_delay);
+    Recording recording = withTrackerDelay(a.reader.load(path), a.tracker_delay);
     recordings.emplace_back(std::move(recording),
                             a.samples == "all" ? SampleChoice::kAll : SampleChoice::kQuasiStatic, *loads);
   }

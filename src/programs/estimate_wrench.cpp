@@ -8,7 +8,6 @@
 #include <iostream>
 #include <sstream>
 
-#include "any_recording.h"
 #include "force_sensor_options.h"
 #include "live_stiffness/calibration/calibration.h"
 #include "live_stiffness/estimation/contact_score.h"
@@ -16,6 +15,7 @@
 #include "live_stiffness/estimation/tip_wrench_estimator.h"
 #include "live_stiffness/part_file.h"
 #include "live_stiffness/rod/scene_file.h"
+#include "recording_reader.h"
 
 namespace po = boost::program_options;
 using namespace live_stiffness;
@@ -55,12 +55,12 @@ void writeRow(std::ostream& out, double time, const TipWrenchEstimator& estimato
   out << '\n';
 }
 
-void run(const std::string& scene_path, const std::string& recording_path, const std::string& registration_path,
+void run(const std::string& scene_path, const Recording& recorded, const std::string& registration_path,
          const std::string& output, const std::string& score_path, const ForceSensorMount& mount,
          const TipWrenchOptions& options) {
   const Scene scene = loadSceneFile(scene_path);
   const Registration registration = loadRegistrationFile(registration_path);
-  const Recording recording = withTrackerDelay(loadAnyRecording(recording_path), registration.tracker_delay);
+  const Recording recording = withTrackerDelay(recorded, registration.tracker_delay);
   const ForceReadings readings(recording);
   const ChannelMap channels = ChannelMap::even(recording.channelCount(), scene.chamberCount());
   const std::vector<Pressures> gauge = gaugePressures(recording);
@@ -106,6 +106,7 @@ void run(const std::string& scene_path, const std::string& recording_path, const
 int main(int argc, char** argv) {
   std::string scene, recording, registration, output, score;
   ForceSensorOptions force_sensor;
+  RecordingReader reader;
   TipWrenchOptions filter;
   double per_bar_m = 1e5 * filter.bias_position_per_pressure, per_bar_deg = 1e5 * degrees(filter.bias_rotation_per_pressure);
   po::options_description options("Options");
@@ -129,6 +130,7 @@ int main(int argc, char** argv) {
      "uncertainty of the logarithm of the stiffness scale; 0: not adapted")
     ("score", po::value(&score), "CSV file to write how well the estimate follows the recorded force: quantity,value");
   force_sensor.addTo(options);
+  reader.addOptionsTo(options);
   po::positional_options_description positional;
   positional.add("scene", 1).add("recording", 1);
   try {
@@ -141,7 +143,7 @@ int main(int argc, char** argv) {
     po::notify(values);
     filter.bias_position_per_pressure = 1e-5 * per_bar_m;
     filter.bias_rotation_per_pressure = 1e-5 * radians(per_bar_deg);
-    run(scene, recording, registration, output, score, force_sensor.mount(), filter);
+    run(scene, reader.load(recording), registration, output, score, force_sensor.mount(), filter);
     return 0;
   } catch (const std::exception& error) {
     std::cerr << "estimate_wrench: " << error.what() << "\nSee estimate_wrench --help.\n";

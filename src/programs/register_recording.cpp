@@ -4,12 +4,12 @@
 #include <boost/program_options.hpp>
 #include <iostream>
 
-#include "any_recording.h"
 #include "live_stiffness/calibration/calibration.h"
 #include "live_stiffness/calibration/calibration_report.h"
 #include "live_stiffness/checks.h"
 #include "live_stiffness/estimation/tracker_delay.h"
 #include "live_stiffness/rod/scene_file.h"
+#include "recording_reader.h"
 
 namespace po = boost::program_options;
 using namespace live_stiffness;
@@ -38,7 +38,8 @@ TrackerDelay delayLeft(const Recording& recording, const RecordingFit& fit) {
   return fitTrackerDelay(times, predicted, measured, used);
 }
 
-int run(const std::string& scene_path, const std::string& recording_path, const std::string& output_path,
+int run(const std::string& scene_path, const RecordingReader& reader, const std::string& recording_path,
+        const std::string& output_path,
         const std::string& samples, bool orientation, double tracker_delay, bool fit_delay) {
   FaultList faults("options");
   faults.check("tracker-delay-s", tracker_delay, {-Registration::kLargestDelay, Registration::kLargestDelay});
@@ -49,7 +50,7 @@ int run(const std::string& scene_path, const std::string& recording_path, const 
   options.model.stepping = Stepping::kContinuous;
   if (!orientation) options.rotation_sigma = 0.0;
   const Scene scene = loadSceneFile(scene_path);
-  const Recording recording = loadAnyRecording(recording_path);
+  const Recording recording = reader.load(recording_path);
   const ChannelMap channels = ChannelMap::even(recording.channelCount(), scene.chamberCount());
   const auto registered = [&](double delay) {
     const CalibrationRecording data(withTrackerDelay(recording, delay),
@@ -83,6 +84,7 @@ int main(int argc, char** argv) {
   std::string scene, recording, output, samples = "all";
   bool no_orientation = false, fit_delay = false;
   double tracker_delay = 0.0;
+  RecordingReader reader;
   po::options_description options("Options");
   options.add_options()
     ("help,h", "print this and exit")
@@ -93,6 +95,7 @@ int main(int argc, char** argv) {
     ("no-orientation", po::bool_switch(&no_orientation), "use positions only; the sensor's rotation is then their mean")
     ("tracker-delay-s", po::value(&tracker_delay)->default_value(0.0), "by which the tracker is late against the pressures")
     ("fit-delay", po::bool_switch(&fit_delay), "fit that delay too, to the samples in motion");
+  reader.addOptionsTo(options);
   po::positional_options_description positional;
   positional.add("scene", 1).add("recording", 1).add("output", 1);
   try {
@@ -103,7 +106,7 @@ int main(int argc, char** argv) {
       return kExitOk;
     }
     po::notify(values);
-    return run(scene, recording, output, samples, !no_orientation, tracker_delay, fit_delay);
+    return run(scene, reader, recording, output, samples, !no_orientation, tracker_delay, fit_delay);
   } catch (const std::exception& error) {
     std::cerr << "register_recording: " << error.what() << "\nSee register_recording --help.\n";
     return kExitUsage;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "bag_options.h"
 #include "live_stiffness/part_file.h"
 #include "live_stiffness/rod/scene_file.h"
 #include "live_stiffness/ros/bag_replay.h"
@@ -15,10 +16,10 @@ namespace po = boost::program_options;
 using namespace live_stiffness;
 
 int main(int argc, char** argv) {
-  std::string bag, out, scene, registration, report_path, model = "ncm", pressure_unit = "Pa",
-                                                          pressure_reference = "gauge", position_unit = "m";
+  std::string bag, out, scene, registration, report_path, model = "ncm";
   double accuracy = ModelOptions().accuracy;
   ReplayOptions replay;
+  BagOptions bag_options(replay.format);
   po::options_description options("Options");
   options.add_options()
     ("help,h", "print this and exit")
@@ -31,14 +32,9 @@ int main(int argc, char** argv) {
     ("accuracy", po::value(&accuracy)->default_value(accuracy), "relative, 1e-13 to 1e-2")
     ("update-threshold-pa", po::value(&replay.estimator.update_threshold)->default_value(1000.0),
      "solve again when the 2-norm of the change of pressure exceeds this")
-    ("pressures", po::value(&replay.pressure_topic)->default_value(replay.pressure_topic), "topic of the pressures")
-    ("pose", po::value(&replay.pose_topic)->default_value(replay.pose_topic), "topic of the tracker")
-    ("tip-wrench", po::value(&replay.wrench_topic)->default_value(replay.wrench_topic), "topic of the known tip wrench")
-    ("pressure-unit", po::value(&pressure_unit)->default_value(pressure_unit), "Pa, kPa, bar, mbar or psi")
-    ("pressure-reference", po::value(&pressure_reference)->default_value(pressure_reference), "gauge or absolute")
-    ("position-unit", po::value(&position_unit)->default_value(position_unit), "m or mm")
     ("channel-of-chamber", po::value(&replay.channel_of_chamber)->multitoken(),
      "channel of each chamber, such as 0 0 1 1 2 2 (default: the bag's channels feed neighbours evenly)");
+  bag_options.addTo(options);
   po::positional_options_description positional;
   positional.add("bag", 1);
   try {
@@ -54,15 +50,7 @@ int main(int argc, char** argv) {
     ModelOptions model_options = namedModelOptions(model, "", faults);
     faults.check("accuracy", accuracy, {1e-13, 1e-2});
     faults.check("update-threshold-pa", replay.estimator.update_threshold, Range::nonnegative());
-    replay.pressure_format.unit = pascalsPerUnit(pressure_unit);
-    if (!(replay.pressure_format.unit > 0.0))
-      faults.add("pressure-unit: " + pressure_unit + " is not known: must be Pa, kPa, bar, mbar or psi");
-    replay.pressure_format.absolute = pressure_reference == "absolute";
-    if (pressure_reference != "gauge" && pressure_reference != "absolute")
-      faults.add("pressure-reference: " + pressure_reference + " is not known: must be gauge or absolute");
-    replay.position_unit = position_unit == "mm" ? 1e-3 : 1.0;
-    if (position_unit != "m" && position_unit != "mm")
-      faults.add("position-unit: " + position_unit + " is not known: must be m or mm");
+    replay.format = bag_options.format(faults);
     for (int channel : replay.channel_of_chamber)
       if (channel < 0 || channel > 1023)
         faults.add("channel-of-chamber: " + std::to_string(channel) + ": must be 0 to 1023");

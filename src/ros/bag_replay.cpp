@@ -63,9 +63,9 @@ class Replay {
       : options_(options),
         estimator_(scene, model, options.estimator),
         bag_(out),
-        pressures_(options.pressure_topic),
-        poses_(options.pose_topic),
-        wrenches_(options.wrench_topic) {
+        pressures_(options.format.pressure_topic),
+        poses_(options.format.pose_topic),
+        wrenches_(options.format.wrench_topic) {
     const std::vector<int>& channels = options.channel_of_chamber;
     if (!channels.empty() && channels.size() != static_cast<size_t>(scene.chamberCount()))
       throw ConfigurationError("channel_of_chamber",
@@ -77,16 +77,16 @@ class Replay {
   void take(const rosbag::MessageInstance& message) {
     recorded_ = message.getTime();
     const std::string topic = withoutSlash(message.getTopic());
-    if (topic == withoutSlash(options_.wrench_topic)) {
+    if (topic == withoutSlash(options_.format.wrench_topic)) {
       if (const auto wrench = message.instantiate<geometry_msgs::WrenchStamped>()) onWrench(*wrench);
       else wrenches_.reject("is no geometry_msgs/WrenchStamped");
       return;
     }
-    const bool is_pressure = topic == withoutSlash(options_.pressure_topic);
-    if (!is_pressure && topic != withoutSlash(options_.pose_topic)) return;
+    const bool is_pressure = topic == withoutSlash(options_.format.pressure_topic);
+    if (!is_pressure && topic != withoutSlash(options_.format.pose_topic)) return;
     const auto any = message.instantiate<topic_tools::ShapeShifter>();
-    if (is_pressure) onPressures(readPressures(*any, options_.pressure_format));
-    else onPose(readPose(*any, options_.position_unit));
+    if (is_pressure) onPressures(readPressures(*any, options_.format.pressures));
+    else onPose(readPose(*any, options_.format.position_unit));
   }
 
   // All has been replayed: gives the bag its name.
@@ -207,8 +207,8 @@ ReplayReport replayBag(const std::string& bag, const std::string& out, const Sce
   ReplayReport report;
   try {
     rosbag::Bag in(bag, rosbag::bagmode::Read);
-    const std::string names[] = {withoutSlash(options.pressure_topic), withoutSlash(options.pose_topic),
-                                 withoutSlash(options.wrench_topic)};
+    const std::string names[] = {withoutSlash(options.format.pressure_topic), withoutSlash(options.format.pose_topic),
+                                 withoutSlash(options.format.wrench_topic)};
     rosbag::View view(in, [&](const rosbag::ConnectionInfo* connection) {
       return std::count(std::begin(names), std::end(names), withoutSlash(connection->topic)) > 0;
     });
@@ -227,7 +227,7 @@ ReplayReport replayBag(const std::string& bag, const std::string& out, const Sce
     throw ConfigurationError("bag " + bag, {std::string("cannot be read: ") + error.what()});
   }
   if (report.pressures.usable == 0)
-    throw ConfigurationError("bag " + bag, {"no usable pressures on " + options.pressure_topic +
+    throw ConfigurationError("bag " + bag, {"no usable pressures on " + options.format.pressure_topic +
                                             (report.pressures.unusable > 0 ? ": " + report.pressures.first_fault
                                                                            : "; see rosbag info, and --pressures")});
   report.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

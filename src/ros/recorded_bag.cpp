@@ -38,12 +38,12 @@ std::optional<Value> newest(const std::map<double, Value>& track, double time) {
   return std::prev(after)->second;
 }
 
-Tracks readTracks(const std::string& path, const PressureFormat& format, double position_unit) {
+Tracks readTracks(const std::string& path, const BagFormat& format) {
   Tracks tracks;
   rosbag::Bag bag(path, rosbag::bagmode::Read);
   for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
     const std::string topic = withoutSlash(message.getTopic());
-    if (topic == "tip_force_torque") {
+    if (topic == withoutSlash(format.wrench_topic)) {
       const auto wrench = message.instantiate<geometry_msgs::WrenchStamped>();
       if (!wrench) continue;
       const FrameNames own{withoutSlash(wrench->header.frame_id), ""};  // a recording keeps the sensor's axes
@@ -51,14 +51,15 @@ Tracks readTracks(const std::string& path, const PressureFormat& format, double 
       keep(reading, message.getTime(), reading.value, tracks.wrenches, tracks);
       continue;
     }
-    if (topic != "chamber_pressures" && topic != "aurora_pose") continue;
+    const bool is_pressure = topic == withoutSlash(format.pressure_topic);
+    if (!is_pressure && topic != withoutSlash(format.pose_topic)) continue;
     const auto any = message.instantiate<topic_tools::ShapeShifter>();
     if (!any) continue;
-    if (topic == "chamber_pressures") {
-      const Reading<Pressures> reading = readPressures(*any, format);
+    if (is_pressure) {
+      const Reading<Pressures> reading = readPressures(*any, format.pressures);
       keep(reading, message.getTime(), reading.value, tracks.pressures, tracks);
     } else {
-      const Reading<TrackedPose> reading = readPose(*any, position_unit);
+      const Reading<TrackedPose> reading = readPose(*any, format.position_unit);
       keep(reading, message.getTime(), reading.value.pose, tracks.poses, tracks);
     }
   }
@@ -67,10 +68,10 @@ Tracks readTracks(const std::string& path, const PressureFormat& format, double 
 
 }  // namespace
 
-Recording loadRecordedBag(const std::string& path, const PressureFormat& format, double position_unit) {
+Recording loadRecordedBag(const std::string& path, const BagFormat& format) {
   Tracks tracks;
   try {
-    tracks = readTracks(path, format, position_unit);
+    tracks = readTracks(path, format);
   } catch (const rosbag::BagException& error) {
     throw ConfigurationError("bag " + path, {std::string("cannot be read: ") + error.what()});
   }
@@ -101,7 +102,8 @@ Recording loadRecordedBag(const std::string& path, const PressureFormat& format,
     recording.warnings.push_back(std::to_string(early) + " poses left out: no pressures before them, or of another "
                                  "number");
   if (recording.samples.empty())
-    throw ConfigurationError("bag " + path, {"no pose on aurora_pose with pressures on chamber_pressures before it"});
+    throw ConfigurationError("bag " + path, {"no pose on " + format.pose_topic + " with pressures on " + format.pressure_topic +
+                                              " before it"});
   return recording;
 }
 

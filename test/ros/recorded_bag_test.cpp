@@ -62,6 +62,22 @@ TEST_F(RecordedBag, GivesEachPoseTheNewestPressuresAndWrenchBeforeIt) {
   }
 }
 
+// Topics, units and an absolute pressure of a rig's own.
+TEST_F(RecordedBag, ReadsWhatARigOfItsOwnHasRecorded) {
+  const ros::Time stamp(10.0);
+  bag_.write("/valves/pressure", stamp, toPressures(Pressures::Constant(3, 111.325), stamp));
+  bag_.write("ndi/tool_1", stamp, toPoseStamped({Matrix3::Identity(), Vector3(120.0, 0.0, 0.0)}, stamp, "aurora"));
+  bag_.write("/nano17", stamp, toWrenchStamped(Wrench(0.5 * Wrench::Unit(0)), stamp, "nano17"));
+  bag_.close();
+  BagFormat format{"valves/pressure", "/ndi/tool_1", "nano17", {1e3, true}, 1e-3};
+  const Recording recording = loadRecordedBag(path_, format);
+  ASSERT_EQ(recording.samples.size(), 1u);
+  EXPECT_TRUE(matrixNear(recording.samples[0].pressures, Pressures::Constant(3, 10e3), 1e-6));
+  EXPECT_TRUE(matrixNear(recording.samples[0].tip_position, Vector3(0.12, 0.0, 0.0), 1e-12));
+  ASSERT_TRUE(recording.samples[0].tip_wrench.has_value());
+  EXPECT_THROW(loadRecordedBag(path_), ConfigurationError) << "nothing is on the topics of the node";
+}
+
 TEST_F(RecordedBag, LeavesOutWhatCannotBeReadAndSaysSo) {
   pose(9.0, 0.0);  // before any pressures
   pressures(10.0, 1e4);

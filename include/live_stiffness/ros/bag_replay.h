@@ -7,17 +7,15 @@
 
 #include "live_stiffness/estimation/registration.h"
 #include "live_stiffness/estimation/stiffness_estimator.h"
-#include "live_stiffness/ros/conversions.h"
+#include "live_stiffness/ros/bag_format.h"
 #include "live_stiffness/ros/replay_report.h"
 #include "live_stiffness/section/channel_map.h"
 
 namespace live_stiffness {
 
-// What the node has as parameters. Topics with or without a leading slash.
+// What the node has as parameters.
 struct ReplayOptions {
-  std::string pressure_topic = "chamber_pressures", pose_topic = "aurora_pose", wrench_topic = "tip_wrench";
-  PressureFormat pressure_format;
-  double position_unit = 1.0;           // m per unit of the tracker's positions
+  BagFormat format{"chamber_pressures", "aurora_pose", "tip_wrench", {}, 1.0};
   std::vector<int> channel_of_chamber;  // empty: the channels of the first message feed neighbours evenly
   Registration registration;
   FrameNames frames{"base", "tip"};
