@@ -102,8 +102,9 @@ Recording loadRecordedBag(const std::string& path, const BagFormat& format) {
     recording.warnings.push_back(std::to_string(early) + " poses left out: no pressures before them, or of another "
                                  "number");
   if (recording.samples.empty())
-    throw ConfigurationError("bag " + path, {"no pose on " + format.pose_topic + " with pressures on " + format.pressure_topic +
-                                              " before it"});
+    throw ConfigurationError(
+        "bag " + path, {"no pose on " + format.pose_topic + " with pressures on " + format.pressure_topic + " before it" +
+                        (tracks.unreadable > 0 ? ": " + tracks.fault : "; see rosbag info, and --pressures and --pose")});
   return recording;
 }
 
