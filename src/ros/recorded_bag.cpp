@@ -66,6 +66,21 @@ Tracks readTracks(const std::string& path, const BagFormat& format) {
   return tracks;
 }
 
+// What numbers that a robot cannot have look like. Faults of units leave a fit that fails far from the reason.
+void warnOfUnits(Recording& recording) {
+  constexpr double kFarthest = 5.0;       // m, that a tip moves
+  constexpr double kLeastPressure = 1e3;  // Pa, of a session in which the robot moves
+  double motion = 0.0, pressure = 0.0;
+  for (const RecordedSample& sample : recording.samples) {
+    motion = std::max(motion, (sample.tip_position - recording.samples.front().tip_position).norm());
+    pressure = std::max(pressure, sample.pressures.cwiseAbs().maxCoeff());
+  }
+  if (motion > kFarthest)
+    recording.warnings.push_back("the tip moves by " + numberText(motion) + " m: millimetres? (--position-unit mm)");
+  if (pressure > 0.0 && pressure < kLeastPressure)
+    recording.warnings.push_back("no pressure is above " + numberText(pressure) + " Pa: another unit? (--pressure-unit)");
+}
+
 }  // namespace
 
 Recording loadRecordedBag(const std::string& path, const BagFormat& format) {
@@ -105,6 +120,7 @@ Recording loadRecordedBag(const std::string& path, const BagFormat& format) {
     throw ConfigurationError(
         "bag " + path, {"no pose on " + format.pose_topic + " with pressures on " + format.pressure_topic + " before it" +
                         (tracks.unreadable > 0 ? ": " + tracks.fault : "; see rosbag info, and --pressures and --pose")});
+  warnOfUnits(recording);
   return recording;
 }
 

@@ -78,6 +78,16 @@ TEST_F(RecordedBag, ReadsWhatARigOfItsOwnHasRecorded) {
   EXPECT_THROW(loadRecordedBag(path_), ConfigurationError) << "nothing is on the topics of the node";
 }
 
+TEST_F(RecordedBag, WarnsOfUnitsThatNoRobotHas) {
+  pressures(10.0, 50.0);  // kPa
+  pose(10.1, 20.0);       // mm
+  pose(10.2, 50.0);
+  const Recording recording = load();
+  ASSERT_EQ(recording.warnings.size(), 2u);
+  EXPECT_NE(recording.warnings[0].find("moves by 30 m"), std::string::npos) << recording.warnings[0];
+  EXPECT_NE(recording.warnings[1].find("above 50 Pa"), std::string::npos) << recording.warnings[1];
+}
+
 TEST_F(RecordedBag, LeavesOutWhatCannotBeReadAndSaysSo) {
   pose(9.0, 0.0);  // before any pressures
   pressures(10.0, 1e4);
