@@ -140,7 +140,7 @@ bool StaticsSolver::newton(const DeadLoads& loads, Backbone& backbone, int max_i
 // On a long taut chain the columns are far larger than the compliance made of them, as they are near a fold. Then so
 // much of x, and of rounding, is left, too.
 bool StaticsSolver::findTangent(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
-  constexpr double kRounding = 1e-15;  // some units in the last place, of sums over all elements
+  const double rounding = 2e-16 * static_cast<double>(backbone.elements.size());  // at most: of sums over all of them
   constexpr double kEnough = 2.0;  // growth is known afterwards only; seldom does a little of it take another round
   const double goal = 0.2 * accuracy_, shape = report.iteration;
   const bool self_adjoint = angular(loads.tip).isZero(0.0);
@@ -168,7 +168,7 @@ bool StaticsSolver::findTangent(const DeadLoads& loads, Backbone& backbone, Stat
     const double left =
         self_adjoint ? 0.5 * change * change * growth_squared * amplification_ : change * cancellation;
     report.iteration = shape + left;
-    report.rounding = kRounding * std::sqrt(growth_squared * std::max(1.0, condition));
+    report.rounding = rounding * std::sqrt(growth_squared * std::max(1.0, condition));
     report.truncation = discretisation_.truncation(cancellation, backbone);
     if (left * amplification_ <= kEnough * goal) break;
   }
