@@ -14,6 +14,7 @@ LATERAL = ["--force-sensor-channels", "fx", "fy"]
 MOUNT = ["force_sensor_azimuth_deg", "force_sensor_height_m", "force_sensor_crosstalk_x", "force_sensor_crosstalk_y",
          "force_sensor_delay_s"]
 LOADED = GEOMETRY + CREEP + MATERIAL + ["shear_modulus_pa", "link_mass_kg"]
+SPARE = 0.5  # s around a push: file and tracker's clock differ by its delay, and pushes are seconds apart
 STIFF = {"youngs_modulus_pa": 100e3}  # a start at which the arm bears these forces
 
 
@@ -49,7 +50,7 @@ class Pushes:
         if push is None:
             return which
         first, last = self.spans[push]
-        return [on and first - 0.5 <= time <= last + 0.5 for on, time in zip(which, self.samples.time)]
+        return [on and first - SPARE <= time <= last + SPARE for on, time in zip(which, self.samples.time)]
 
     def fit(self, name, recording, mount, delay, parameters=LOADED):
         """All parameters, to positions of quasi-static samples of a recording, pushes included."""
@@ -74,7 +75,7 @@ class Pushes:
         with open(self.samples.path, newline="") as source, open(path, "w", newline="") as file:
             lines = source.readlines()
             file.write(lines[0])
-            file.writelines(line for line in lines[1:] if not first - 0.5 <= float(line.split(",")[0]) <= last + 0.5)
+            file.writelines(line for line in lines[1:] if not first - SPARE <= float(line.split(",")[0]) <= last + SPARE)
         return path
 
     def write(self):

@@ -54,6 +54,7 @@ bool StaticsSolver::quick(const DeadLoads& loads, Known known, int max_sweeps, B
     nodes_hold_guess_ = s.sound;
     const double error = std::max(s.change, bendingOf(Vector3(s.residual)));
     if (!s.sound || (growing += error > last) > 3) return false;
+    // Two sweeps show a rate. Within two digits of the goal a few more are cheaper than columns.
     const bool is_slow = has_columns && i >= last_columns + 2 && error > kSlowSweeps * last && error > 100.0 * goal;
     if (is_slow || (!has_columns && i >= sweeps_before_columns)) {
       last_columns = i;

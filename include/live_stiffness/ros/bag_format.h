@@ -7,7 +7,7 @@
 
 namespace live_stiffness {
 
-// Topics with or without a leading slash. By default those of the node, and of what recording_to_bag and simulate_bag write.
+// Topics with or without a leading slash. By default what recording_to_bag and simulate_bag write.
 struct BagFormat {
   std::string pressure_topic = "chamber_pressures", pose_topic = "aurora_pose";
   std::string wrench_topic = "tip_force_torque";  // of the force sensor; replay takes a known wrench instead: tip_wrench

@@ -13,9 +13,9 @@ class ClockWatch {
  public:
   // To be called by wall time: where time stands still, no timer of ROS time fires.
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
-  // Starts timers of ROS time anew if diagnose() has seen time jump back since the last call. roscpp itself misses about
-  // one jump in ten thousand (when it comes between two of its looks at the clock), and its timers then wait until the
-  // time of before comes again.
+  // Starts timers of ROS time anew if diagnose() has seen time jump back since the last call; empty ones are left alone.
+  // roscpp itself misses a jump that comes just between two of its looks at the clock (TimerManager), and its timers then
+  // wait until the time of before comes again.
   void restartAfterJump(std::vector<ros::Timer>& timers);
 
  private:
