@@ -37,9 +37,9 @@ ros::NodeHandle CallbackLane::handle(ros::NodeHandle node) {
   return node;
 }
 
-void CallbackLane::start(const std::string& name, int realtime_priority) {
+void CallbackLane::start(const std::string& name, int realtime_priority, bool busy_wait) {
   is_running_ = true;
-  thread_ = std::thread(&CallbackLane::run, this);
+  thread_ = std::thread(&CallbackLane::run, this, busy_wait);
   pthread_setname_np(thread_.native_handle(), name.substr(0, 15).c_str());
   if (realtime_priority <= 0) return;
   sched_param scheduling{};
@@ -58,8 +58,10 @@ void CallbackLane::stop() {
   queue_.clear();
 }
 
-void CallbackLane::run() {
-  while (is_running_ && ros::ok()) queue_.callOne(ros::WallDuration(0.1));
+void CallbackLane::run(bool busy_wait) {
+  const ros::WallDuration patience(busy_wait ? 0.0 : 0.1);
+  while (is_running_ && ros::ok())
+    if (queue_.callOne(patience) == ros::CallbackQueue::Empty && busy_wait) std::this_thread::yield();
 }
 
 std::string lockMemory() {
