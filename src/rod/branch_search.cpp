@@ -48,56 +48,95 @@ Vector3 directionOfCollapse(const Matrix3& C, const Vector3& moved) {
   return softest.direction;
 }
 
+// The last steps of a leg, to extrapolate the next one from.
+class Path {
+ public:
+  Path(double share, const Equilibrium& at) {
+    moments_.fill(at.base_moment);
+    tips_.fill(at.p_BT);
+    add(share, at);
+  }
+
+  void add(double share, const Equilibrium& at) {
+    for (int i = kMemory - 1; i > 0; --i) {
+      reached_[i] = reached_[i - 1];
+      moments_[i] = moments_[i - 1];
+      tips_[i] = tips_[i - 1];
+    }
+    reached_[0] = share;
+    moments_[0] = at.base_moment;
+    tips_[0] = at.p_BT;
+    known_ = std::min(known_ + 1, kMemory);
+  }
+  void keep(int count) { known_ = std::min(known_, count); }
+
+  // Where the next step is expected to end.
+  Equilibrium at(double share) const {
+    Equilibrium expected;
+    for (int i = 0; i < known_; ++i) {
+      double weight = 1.0;  // Lagrange's
+      for (int j = 0; j < known_; ++j)
+        if (j != i) weight *= (share - reached_[j]) / (reached_[i] - reached_[j]);
+      expected.base_moment += weight * moments_[i];
+      expected.p_BT += weight * tips_[i];
+    }
+    return expected;
+  }
+
+ private:
+  std::array<double, kMemory> reached_{};  // shares of the leg, newest first
+  std::array<Vector3, kMemory> moments_, tips_;
+  int known_ = 0;
+};
+
 }  // namespace
+
+bool BranchSearch::jumped(const Equilibrium& at, const Equilibrium& expected) const {
+  return finder_.bendingOf(at.base_moment - expected.base_moment) > kMostBending ||
+         (at.p_BT - expected.p_BT).norm() > kMostMiss * length_;
+}
 
 // One straight leg from the loads reached so far, in steps of adaptive size. The base moment of the next step is
 // extrapolated from the last ones: on a long hanging chain a shot strays exponentially, so that a moment scaled with
 // the load would not do. A step that ends elsewhere than that lets expect may have jumped to another branch.
 bool BranchSearch::follow(const DeadLoads& target, double least_advance) {
   const DeadLoads start = loads_;
-  std::array<double, kMemory> reached{};  // shares, newest first
-  std::array<Vector3, kMemory> moments, tips;
-  moments.fill(at_.base_moment);
-  tips.fill(at_.p_BT);
-  int known = 1, rejected = 0;
+  Path path(0.0, at_);
+  int rejected = 0;
   double advance = kFirstAdvance;
   share_ = 0.0;
   lost_stability_ = false;
   while (share_ < 1.0) {
     if (advance < least_advance || finder_.exhausted()) return false;
     const double trial = std::min(1.0, share_ + advance);
-    Vector3 guess = Vector3::Zero(), expected_tip = Vector3::Zero();
-    for (int i = 0; i < known; ++i) {
-      double weight = 1.0;  // Lagrange's
-      for (int j = 0; j < known; ++j)
-        if (j != i) weight *= (trial - reached[j]) / (reached[i] - reached[j]);
-      guess += weight * moments[i];
-      expected_tip += weight * tips[i];
-    }
+    const Equilibrium expected = path.at(trial);
     const DeadLoads loads = between(start, target, trial);
-    const std::optional<Equilibrium> next = finder_.settle(loads, guess);
-    const bool jumped = next && (finder_.bendingOf(next->base_moment - guess) > kMostBending ||
-                                 (next->p_BT - expected_tip).norm() > kMostMiss * length_);
-    if (!next || !next->stable || jumped) {
+    const std::optional<Equilibrium> next = finder_.settle(loads, expected.base_moment);
+    if (!next || !next->stable || jumped(*next, expected)) {
       lost_stability_ = next.has_value();
       advance *= 0.4;
-      if (next && ++rejected > 2) known = std::min(known, 2);  // the path is not as smooth as it looked
+      if (next && ++rejected > 2) path.keep(2);  // it is not as smooth as it looked
       continue;
     }
-    for (int i = kMemory - 1; i > 0; --i) {
-      reached[i] = reached[i - 1];
-      moments[i] = moments[i - 1];
-      tips[i] = tips[i - 1];
-    }
-    share_ = reached[0] = trial;
-    moments[0] = next->base_moment;
-    tips[0] = next->p_BT;
-    known = std::min(known + 1, kMemory);
+    share_ = trial;
+    path.add(trial, *next);
     rejected = 0;
     moved_ = next->p_BT - at_.p_BT;
     at_ = *next;
     loads_ = loads;
     advance *= std::clamp(kMotionAimed * length_ / moved_.norm(), 0.6, 1.6);
+  }
+  return true;
+}
+
+bool BranchSearch::runBriskly(const DeadLoads& loads, const Equilibrium& unloaded, int steps) {
+  Path path(0.0, unloaded);
+  for (int i = 1; i <= steps; ++i) {
+    const double share = static_cast<double>(i) / steps;
+    const Equilibrium expected = path.at(share);
+    const std::optional<Equilibrium> next = finder_.settle(between(DeadLoads(), loads, share), expected.base_moment);
+    if (!next || !next->stable || (i > 1 && jumped(*next, expected))) return false;
+    path.add(share, *next);
   }
   return true;
 }

@@ -96,7 +96,8 @@ struct ChainPasses {
         [&](ElementState& e, bool) { S::follow(e, base_moment_change); });
   }
 
-  static double columns(const ChainState& chain, bool anew, double goal, bool with_defect, ElementColumns& tip) {
+  static double columns(const ChainState& chain, bool anew, ColumnSet set, double goal, bool with_defect,
+                        ElementColumns& tip) {
     // Before the first element: the base moment itself, and nothing moves.
     static constexpr ElementColumns kBase = {{}, {}, {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}, {}};
     const bool has_offset = hasOffset(chain);
@@ -117,7 +118,7 @@ struct ChainPasses {
         chain, [&](const Vector& piece, const Vector& weight) { carry(piece, weight, other()); },
         [&](ElementState& e, bool last) {
           ElementColumns& end = last && !has_offset ? tip : other();
-          const double own = C::propagate(e, anew, *start, part_goal, with_defect, end);
+          const double own = C::propagate(e, anew, *start, set, part_goal, with_defect, end);
           left = with_defect ? left + own : largerOf(own, left);
           start = &end;
           at.leave(e);

@@ -68,11 +68,13 @@ struct Columns : Collocation<kStages> {
     StageRow missing[6][3];  // weight times phi' that the moments demand, less that which phi was made of
   };
 
-  // Moments, then phi' = B (dm - phi x m). In this order the change of phi shows whatever is not yet right.
-  static void columnPass(ElementState& e, const ElementColumns& start, Found& found) {
+  // Moments, then phi' = B (dm - phi x m), of three columns. In this order the change of phi shows whatever is not yet
+  // right; it is returned, relative.
+  template <int kFirst>
+  static double columnPass(ElementState& e, const ElementColumns& start, Found& found) {
     const GaussLegendre& t = table();
-    Lanes change[2] = {}, size[2] = {};  // base moment and tip force have their own units
-    for (int k = 0; k < 6; ++k) {
+    Lanes change{}, size{};
+    for (int k = kFirst; k < kFirst + 3; ++k) {
       updateMoments(t, e, start, k);
       move(t, e, k, found.along);
       for (int i = 0; i < 3; ++i) found.phi_end[k][i] = e.phi[k][i][kStages];
@@ -88,42 +90,65 @@ struct Columns : Collocation<kStages> {
 #pragma GCC unroll 4
       for (int v = 0; v < kVectors; ++v) {
         const Lanes3 next = splat(start.phi[k]) + turn.at[v], step = next - load(e.phi[k], v);
-        change[k / 3] += dot(step, step);
-        size[k / 3] += dot(next, next);
+        change += dot(step, step);
+        size += dot(next, next);
         store(e.phi[k], v, next);
       }
     }
-    double total[4];
-    sums({change[0], size[0], change[1], size[1]}, total);
-    e.column_change = __builtin_sqrt(total[0] / (total[1] + 1e-300) + total[2] / (total[3] + 1e-300));
+    return __builtin_sqrt(sum(change) / (sum(size) + 1e-300));
   }
 
+  // Until less than `goal` is left, relative; which is returned, infinity without convergence.
+  template <int kFirst>
+  static double columnPasses(ElementState& e, const ElementColumns& start, double goal, bool with_defect, Found& found) {
+    constexpr int kMaxPasses = 60;
+    double last_change = __builtin_inf();
+    for (int i = 0; i < kMaxPasses; ++i) {
+      const double change = columnPass<kFirst>(e, start, found);
+      // What is left after a pass is about its change times the rate at which changes shrink.
+      const double rate = i > 0 && change < 0.2 * last_change ? change / last_change : 0.2;
+      const double left = with_defect ? change : change * rate;
+      if (left <= goal || (change <= 1e-13 && change >= last_change)) return left;
+      if (!__builtin_isfinite(change)) break;
+      last_change = change;
+    }
+    return __builtin_inf();
+  }
+
+  template <int kCount>
   static LIVE_STIFFNESS_INLINE void columnEnd(ElementState& e, const ElementColumns& start, const Lanes (&along)[18],
                                               const double (&phi_end)[6][3], ElementColumns& end) {
     static constexpr int kSymmetric[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
-    double moved[18];
-    sums(along, moved);
-    for (int k = 0; k < 6; ++k)
+    Lanes own[3 * kCount];
+    for (int i = 0; i < 3 * kCount; ++i) own[i] = along[i];
+    double moved[3 * kCount];
+    sums(own, moved);
+    for (int k = 0; k < kCount; ++k)
       for (int i = 0; i < 3; ++i) {
         end.p[k][i] = start.p[k][i] + moved[3 * k + i] + (k >= 3 ? e.stretch[kSymmetric[i][k - 3]] : 0.0);
         end.phi[k][i] = phi_end[k][i];
         end.m[k][i] = e.dm[k][i][kStages];
       }
+    for (int k = kCount; k < 6; ++k)
+      for (int i = 0; i < 3; ++i) end.p[k][i] = end.phi[k][i] = end.m[k][i] = 0.0;
     estimateTruncation(table(), e, end);
   }
 
   // Of the columns that the last pass started from.
+  template <int kCount>
   static LIVE_STIFFNESS_INLINE void addDefect(const Found& found, const ElementColumns& start, ElementColumns& end) {
-    Lanes work[36];
-    for (int i = 0; i < 6; ++i)
-      for (int j = 0; j < 6; ++j) {
+    Lanes work[kCount * kCount];
+    for (int i = 0; i < kCount; ++i)
+      for (int j = 0; j < kCount; ++j) {
         Lanes total = dot(load(found.moment[i], 0), load(found.missing[j], 0));
         for (int v = 1; v < kVectors; ++v) total += dot(load(found.moment[i], v), load(found.missing[j], v));
-        work[6 * i + j] = total;
+        work[kCount * i + j] = total;
       }
-    double defect[36];
+    double defect[kCount * kCount];
     sums(work, defect);
-    for (int i = 0; i < 36; ++i) (&end.defect[0][0])[i] = (&start.defect[0][0])[i] + defect[i];
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < 6; ++j)
+        end.defect[i][j] = i < kCount && j < kCount ? start.defect[i][j] + defect[kCount * i + j] : 0.0;
   }
 
   static void reset(ElementState& e, const ElementColumns& start) {
@@ -132,54 +157,61 @@ struct Columns : Collocation<kStages> {
         store(e.phi[k], v, splat(start.phi[k]));
         store(e.phi_rate[k], v, Lanes3{});
       }
+    keepStart<6>(e, start);
+  }
+
+  template <int kCount>
+  static LIVE_STIFFNESS_INLINE void keepStart(ElementState& e, const ElementColumns& start) {
+    for (int k = 0; k < kCount; ++k)
+      for (int i = 0; i < 3; ++i) e.phi_start[k][i] = start.phi[k][i];
   }
 
   // The columns held go on from where those before them end now.
+  template <int kCount>
   static LIVE_STIFFNESS_INLINE void moveStart(ElementState& e, const ElementColumns& start) {
-    for (int k = 0; k < 6; ++k) {
+    for (int k = 0; k < kCount; ++k) {
       const Lanes3 step = splat({start.phi[k][0] - e.phi_start[k][0], start.phi[k][1] - e.phi_start[k][1],
                                  start.phi[k][2] - e.phi_start[k][2]});
       for (int v = 0; v < kVectors; ++v) store(e.phi[k], v, load(e.phi[k], v) + step);
     }
+    keepStart<kCount>(e, start);
+  }
+
+  template <int kCount>
+  static double propagateFirst(ElementState& e, bool anew, const ElementColumns& start, double goal, bool with_defect,
+                               ElementColumns& end) {
+    if (anew) reset(e, start);
+    else moveStart<kCount>(e, start);
+    linearise(e);
+    Found found;
+    // Base moment and tip force have their own units, and a share of the goal each.
+    double left = columnPasses<0>(e, start, kCount == 6 ? __builtin_sqrt(0.5) * goal : goal, with_defect, found);
+    if (kCount == 6 && __builtin_isfinite(left)) {
+      const double rest = __builtin_sqrt(largerOf(goal * goal - left * left, 0.0));
+      const double also = columnPasses<3>(e, start, rest, with_defect, found);
+      left = __builtin_sqrt(left * left + also * also);
+    }
+    if (!__builtin_isfinite(left)) {
+      reset(e, start);
+      end = start;
+      return left;
+    }
+    if (!with_defect)
+      for (int k = 0; k < kCount; ++k) {
+        updateMoments(table(), e, start, k);
+        move(table(), e, k, found.along);
+        for (int i = 0; i < 3; ++i) found.phi_end[k][i] = e.phi[k][i][kStages];
+      }
+    columnEnd<kCount>(e, start, found.along, found.phi_end, end);
+    if (with_defect) addDefect<kCount>(found, start, end);
+    return left;
   }
 
   // See propagate() in rod_element.h.
-  static double propagate(ElementState& e, bool anew, const ElementColumns& start, double goal, bool with_defect,
-                          ElementColumns& end) {
-    constexpr int kMaxPasses = 60;
-    if (anew) reset(e, start);
-    else moveStart(e, start);
-    linearise(e);
-    for (int k = 0; k < 6; ++k)
-      for (int i = 0; i < 3; ++i) e.phi_start[k][i] = start.phi[k][i];
-    double last_change = __builtin_inf();
-    Found found;
-    for (int i = 0; i < kMaxPasses; ++i) {
-      columnPass(e, start, found);
-      const double change = e.column_change;
-      // What is left after a pass is about its change times the rate at which changes shrink.
-      const double rate = i > 0 && change < 0.2 * last_change ? change / last_change : 0.2;
-      const double left = with_defect ? change : change * rate;
-      if (left <= goal || (change <= 1e-13 && change >= last_change)) {
-        if (with_defect) {
-          columnEnd(e, start, found.along, found.phi_end, end);
-          addDefect(found, start, end);
-        } else {
-          for (int k = 0; k < 6; ++k) {
-            updateMoments(table(), e, start, k);
-            move(table(), e, k, found.along);
-            for (int i = 0; i < 3; ++i) found.phi_end[k][i] = e.phi[k][i][kStages];
-          }
-          columnEnd(e, start, found.along, found.phi_end, end);
-        }
-        return left;
-      }
-      if (!__builtin_isfinite(change)) break;
-      last_change = change;
-    }
-    reset(e, start);
-    end = start;
-    return __builtin_inf();
+  static double propagate(ElementState& e, bool anew, const ElementColumns& start, ColumnSet set, double goal,
+                          bool with_defect, ElementColumns& end) {
+    return set == ColumnSet::kAll ? propagateFirst<6>(e, anew, start, goal, with_defect, end)
+                                  : propagateFirst<3>(e, anew, start, goal, with_defect, end);
   }
 
   // As that of the shape, which says nothing of a straight rod under load.

@@ -61,7 +61,7 @@ bool integrate(const ElementPasses& passes, bool anew, RodElement& element) {
 
 double propagate(const ElementPasses& passes, bool anew, RodElement& element, const ElementColumns& start, double goal,
                  ElementColumns& end) {
-  return passes.propagate(element.state, anew, start, goal, false, end);
+  return passes.propagate(element.state, anew, start, ColumnSet::kAll, goal, false, end);
 }
 
 }  // namespace live_stiffness

@@ -102,8 +102,8 @@ bool shoot(const Chain& chain, const DeadLoads& loads, const Vector3& base_momen
 }
 
 double tipColumns(const Chain& chain, const DeadLoads& loads, bool anew, double goal, Backbone& backbone,
-                  ElementColumns& columns, bool with_defect) {
-  return backbone.passes->columns(stateOf(chain, loads, Vector3::Zero(), backbone), anew, goal, with_defect, columns);
+                  ElementColumns& columns, bool with_defect, ColumnSet set) {
+  return backbone.passes->columns(stateOf(chain, loads, Vector3::Zero(), backbone), anew, set, goal, with_defect, columns);
 }
 
 }  // namespace live_stiffness

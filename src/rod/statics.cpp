@@ -35,13 +35,18 @@ void StaticsSolver::placeFresh(const DeadLoads& loads, Backbone& backbone) {
   live_stiffness::placeUnloaded(chain_, backbone);
   forgetGuesses(loads, backbone);
   nodes_hold_guess_ = true;
-  base_moment_ = angular(loads.tip) + backbone.X_BT.p.cross(linear(loads.tip) + chain_.tip_mass * loads.gravity);
+  base_moment_ = momentOfUnloaded(loads, backbone);
+}
+
+// That the loads exert on the base of the unloaded shape, which the backbone is in.
+Vector3 StaticsSolver::momentOfUnloaded(const DeadLoads& loads, const Backbone& backbone) const {
+  Vector3 moment = angular(loads.tip) + backbone.X_BT.p.cross(linear(loads.tip) + chain_.tip_mass * loads.gravity);
   const GaussLegendre& table = gaussLegendre(backbone.passes->stages);
   auto element = backbone.elements.begin();
   Pose X;
   for (const Chain::Part& part : chain_.parts) {
     if (part.segment < 0) {
-      base_moment_ += (X.p + 0.5 * part.length * X.R.col(2)).cross(part.mass * loads.gravity);
+      moment += (X.p + 0.5 * part.length * X.R.col(2)).cross(part.mass * loads.gravity);
       X.p += part.length * X.R.col(2);
       continue;
     }
@@ -50,10 +55,11 @@ void StaticsSolver::placeFresh(const DeadLoads& loads, Backbone& backbone) {
       Vector3 centre = element->p_start();
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < table.nodes; ++j) centre[i] += table.b[j] * element->state.offset[i][j];
-      base_moment_ += centre.cross(part.mass / count * loads.gravity);
+      moment += centre.cross(part.mass / count * loads.gravity);
       X = element->X_end();
     }
   }
+  return moment;
 }
 
 void StaticsSolver::prepareUnloaded(Backbone& backbone) {
@@ -101,8 +107,11 @@ bool StaticsSolver::findEquilibrium(const DeadLoads& loads, Backbone& backbone, 
   }
 }
 
-bool StaticsSolver::isStable(const DeadLoads& loads, const Backbone& backbone, const StaticsReport& report) const {
-  return isTipStable(tangent_, softness_, report.relativeError()) &&
+bool StaticsSolver::isStable(const DeadLoads& loads, const Backbone& backbone, const StaticsReport& report,
+                             ColumnSet set) const {
+  const double error = report.relativeError();
+  return (set == ColumnSet::kAll ? isTipStable(tangent_, softness_, error)
+                                 : isTipTurningStable(tangent_.bottomRightCorner<3, 3>(), softness_, error)) &&
          !(mayBuckle(loads, backbone) && hasConjugatePoint(backbone));
 }
 

@@ -1,6 +1,7 @@
 // How StaticsSolver finds the stable equilibrium that a robot comes to as its loads grow from zero.
 
 #include <algorithm>
+#include <cmath>
 
 #include "live_stiffness/rod/stability.h"
 #include "live_stiffness/rod/statics.h"
@@ -8,50 +9,63 @@
 namespace live_stiffness {
 namespace {
 
-constexpr double kRough = 1e-3;  // accuracy that does for loads on the way to the last: of elements, sweeps and columns
-// Sweeps and columns may be as rough for loads and amplifications up to these. Beyond, the next base moment is extrapolated
-// from errors that rough ones leave, and hard cases lose their way (hard_cases_test).
-constexpr double kLittle = 3.0;  // load number
-constexpr double kFarFromBuckling = 4.0;  // amplification
-constexpr double kAwayFromBuckling = 8.0;  // the same, for sweeps at all
+// A brisk search takes loads with a load number up to this one, a step for each unit.
+constexpr double kBrisk = 6.0;
+constexpr double kRough = 1e-2;           // accuracy that does on its way, of sweeps and columns
+constexpr double kFarFromBuckling = 4.0;  // amplification up to which it does
+// Of rods that the loads bend little sweeps converge surely. Under more load a base moment must be known to more digits
+// than they give, and Newton's method is not to be kept waiting (hard_cases_test).
+constexpr double kLittle = 3.0;           // load number
+constexpr double kAwayFromBuckling = 8.0; // amplification
+constexpr double kRoughElements = 1e-3;   // accuracy that does for elements on the way
 
 }  // namespace
 
 // Settles to one load of a branch search, with more elements where the robot bends more by now.
 class StaticsSolver::Finder : public EquilibriumFinder {
  public:
-  Finder(StaticsSolver& solver, const DeadLoads& last, Backbone& backbone, StaticsReport& report)
+  // Brisk: on the way it finds, roughly, what tells whether the tip's turning is stable, no more; and the first loads must
+  // allow one equilibrium only.
+  enum class Pace { kBrisk, kCareful };
+
+  Finder(StaticsSolver& solver, const DeadLoads& last, Backbone& backbone, StaticsReport& report, Pace pace)
       : solver_(solver), accuracy_(solver.accuracy_), last_(last), backbone_(backbone), report_(report),
-        loads_are_little_(loadNumber(solver.chain_, last, backbone) < kLittle) {}
+        is_brisk_(pace == Pace::kBrisk), is_first_(is_brisk_) {}
   ~Finder() override { solver_.accuracy_ = accuracy_; }
 
   std::optional<Equilibrium> settle(const DeadLoads& loads, const Vector3& base_moment) override {
     prepare(solver_.chain_, loads, backbone_);
     const bool is_last = loads.gravity == last_.gravity && loads.tip == last_.tip;
-    const bool is_rough = !is_last && loads_are_little_ && solver_.amplification_ < kFarFromBuckling;
+    const bool is_rough = is_brisk_ && !is_last && solver_.amplification_ < kFarFromBuckling;
     solver_.accuracy_ = is_rough ? std::max(accuracy_, kRough) : accuracy_;
+    const ColumnSet set = is_brisk_ && !is_last ? ColumnSet::kBaseMoment : ColumnSet::kAll;
     Vector3 guess = base_moment;
     bool refined = false;
     do {
-      if (!(settleQuickly(loads, guess, refined) || settleByNewton(loads, guess)) ||
-          !solver_.findTangent(loads, backbone_, report_)) {
+      if (!(settleFirst(loads) || settleQuickly(loads, guess, refined) || settleByNewton(loads, guess)) ||
+          !solver_.findTangent(loads, backbone_, report_, set)) {
         solver_.forgetGuesses(loads, backbone_);
         return std::nullopt;
       }
       guess = solver_.base_moment_;
-    } while ((refined = refine(loads, is_last ? accuracy_ : kRough)));
+    } while ((refined = refine(loads, is_last ? accuracy_ : kRoughElements)));
     return Equilibrium{solver_.base_moment_, backbone_.X_BT.p, solver_.tangent_,
-                       solver_.isStable(loads, backbone_, report_)};
+                       solver_.isStable(loads, backbone_, report_, set)};
   }
   double bendingOf(const Vector3& moment) const override { return solver_.bendingOf(moment); }
   bool exhausted() const override { return report_.iterations >= kMaxIterations; }
 
  private:
+  // From the unloaded shape.
+  bool settleFirst(const DeadLoads& loads) {
+    if (!is_first_) return false;
+    is_first_ = false;
+    solver_.base_moment_ = solver_.momentOfUnloaded(loads, backbone_);
+    return solver_.quick(loads, Known::kNothing, kMaxSweeps, backbone_, report_);
+  }
   // From the shape and the columns of the loads before, or from the base moment that fewer elements have led to.
   bool settleQuickly(const DeadLoads& loads, const Vector3& base_moment, bool refined) {
-    // Of rods that the loads bend little sweeps converge surely. Under more load a base moment must be known to more
-    // digits than they give, and Newton's method is not to be kept waiting (hard_cases_test).
-    const int few_sweeps = loadNumber(solver_.chain_, loads, backbone_) < kLittle ? 30 : 12;
+    const int few_sweeps = is_brisk_ || loadNumber(solver_.chain_, loads, backbone_) < kLittle ? 30 : 12;
     const bool has_columns = solver_.nodes_hold_guess_ && solver_.has_columns_;
     if (!(has_columns || refined) || solver_.amplification_ > kAwayFromBuckling) return false;
     if (has_columns) {
@@ -82,7 +96,8 @@ class StaticsSolver::Finder : public EquilibriumFinder {
   const DeadLoads& last_;
   Backbone& backbone_;
   StaticsReport& report_;
-  const bool loads_are_little_;
+  const bool is_brisk_;
+  bool is_first_;
 };
 
 // Sweeps to the finest goal from a solution; takes it back if they fail.
@@ -104,12 +119,23 @@ void StaticsSolver::polish(const DeadLoads& loads, Backbone& backbone, StaticsRe
 bool StaticsSolver::findAlongLoads(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
   discretisation_.choose(loads, backbone);
   placeFresh(DeadLoads(), backbone);
-  Finder finder(*this, loads, backbone, report);
-  BranchSearch search(finder, length_);
-  const BranchEnd end = search.run(loads);
+  const double load_number = loadNumber(chain_, loads, backbone);
+  BranchEnd end = BranchEnd::kNotConverged;
+  if (load_number < kBrisk) {
+    Finder finder(*this, loads, backbone, report, Finder::Pace::kBrisk);
+    BranchSearch search(finder, length_);
+    const Equilibrium unloaded{Vector3::Zero(), backbone.X_BT.p, {}, true};
+    if (search.runBriskly(loads, unloaded, std::max(1, static_cast<int>(std::ceil(load_number))))) end = BranchEnd::kLoading;
+    else placeFresh(DeadLoads(), backbone);
+  }
+  if (end != BranchEnd::kLoading) {
+    Finder finder(*this, loads, backbone, report, Finder::Pace::kCareful);
+    BranchSearch search(finder, length_);
+    end = search.run(loads);
+    report.stable_share = search.stableShare();
+  }
   report.buckled = end == BranchEnd::kBuckled;
   report.stable = report.buckled || end == BranchEnd::kLoading;
-  report.stable_share = search.stableShare();
   if (report.stable && (report.residual + report.iteration) * report.amplification > accuracy_)
     polish(loads, backbone, report);
   return end != BranchEnd::kNotConverged;

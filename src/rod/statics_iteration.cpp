@@ -28,7 +28,8 @@ bool StaticsSolver::march(const DeadLoads& loads, const Vector3& base_moment, Ba
 
 bool StaticsSolver::updateInverse(const DeadLoads& loads, double goal, Backbone& backbone) {
   ElementColumns columns;
-  const double change = tipColumns(chain_, loads, !has_columns_, goal, backbone, columns);
+  const double change =
+      tipColumns(chain_, loads, !has_columns_, goal, backbone, columns, false, ColumnSet::kBaseMoment);
   has_columns_ = std::isfinite(change);
   residual_inverse_ = columnsOf(columns.m).leftCols<3>().inverse();
   return has_columns_ && residual_inverse_.allFinite();
@@ -140,7 +141,7 @@ bool StaticsSolver::newton(const DeadLoads& loads, Backbone& backbone, int max_i
 //
 // On a long taut chain the columns are far larger than the compliance made of them, as they are near a fold. Then so
 // much of x, and of rounding, is left, too.
-bool StaticsSolver::findTangent(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
+bool StaticsSolver::findTangent(const DeadLoads& loads, Backbone& backbone, StaticsReport& report, ColumnSet set) {
   const double rounding = 2e-16 * static_cast<double>(backbone.elements.size());  // at most: of sums over all of them
   constexpr double kEnough = 2.0;  // growth is known afterwards only; seldom does a little of it take another round
   const double goal = 0.2 * accuracy_, shape = report.iteration;
@@ -151,7 +152,7 @@ bool StaticsSolver::findTangent(const DeadLoads& loads, Backbone& backbone, Stat
     const double error_goal = std::max(goal / amplification_, 1e-16);
     const double column_goal = self_adjoint ? std::sqrt(2.0 * error_goal / (amplification_ * growth_squared))
                                             : error_goal / cancellation;
-    const double change = tipColumns(chain_, loads, !has_columns_, column_goal, backbone, tip, self_adjoint);
+    const double change = tipColumns(chain_, loads, !has_columns_, column_goal, backbone, tip, self_adjoint, set);
     has_columns_ = std::isfinite(change);
     if (!has_columns_) return false;
     backbone.passes->tangent(tip, self_adjoint, residual_inverse_.data(), tangent_.data());

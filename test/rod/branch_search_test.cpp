@@ -86,5 +86,20 @@ TEST(BranchSearch, StaysOnTheBranchFromZeroBelowTheBifurcation) {
   EXPECT_EQ(finder.at, 0.0);
 }
 
+TEST(BranchSearch, RunsBrisklyToWhereItRunsCarefully) {
+  OneDegreeOfFreedom brisk(1.0, 0.1), careful(1.0, 0.1);
+  EXPECT_TRUE(BranchSearch(brisk, 1.0).runBriskly(load(0.9), Equilibrium(), 2));
+  EXPECT_EQ(BranchSearch(careful, 1.0).run(load(0.9)), BranchEnd::kLoading);
+  EXPECT_NEAR(brisk.at, careful.at, 1e-9);
+}
+
+// Past the bifurcation, where it snaps to, and by a step that ends far from where the ones before let expect.
+TEST(BranchSearch, DoesNotRunBrisklyWhereThereIsMoreToTell) {
+  OneDegreeOfFreedom straight(1.0, 0.0), snapping(-1.0, 0.05), jumping(-1.0, 0.3);
+  EXPECT_FALSE(BranchSearch(straight, 1.0).runBriskly(load(1.5), Equilibrium(), 3));
+  EXPECT_FALSE(BranchSearch(snapping, 1.0).runBriskly(load(1.2), Equilibrium(), 2));
+  EXPECT_FALSE(BranchSearch(jumping, 0.1).runBriskly(load(0.9), Equilibrium(), 2));
+}
+
 }  // namespace
 }  // namespace live_stiffness

@@ -6,6 +6,7 @@
 
 #include "live_stiffness/rod/kinematics.h"
 #include "live_stiffness/rod/shooting.h"
+#include "live_stiffness/rod/stability.h"
 #include "support/bare_rod.h"
 
 namespace live_stiffness {
@@ -44,6 +45,26 @@ TEST(ConjugatePoint, IsNotThereUnderTension) {
   DeadLoads loads;
   loads.tip[2] = 100.0;
   EXPECT_FALSE(hasConjugatePoint(shot(rod, loads, Vector3::Zero(), 16)));
+}
+
+// The tip of a straight column turns by tan(sqrt(P)) / sqrt(P) of a unit moment: negative from the Euler load pi^2 / 4 on, and
+// positive again from 4 times that on, where a conjugate point tells.
+TEST(TipStability, ShowsInTheTurningAlone) {
+  const BareRod rod = BareRod::elastica();
+  const Chain chain(rod.scene);
+  for (double share : {0.1, 0.5, 0.99, 1.01, 2.0, 3.9, 4.1, 8.0}) {
+    DeadLoads loads;
+    loads.tip[2] = -share * kPi * kPi / 4.0;
+    Backbone backbone = shot(rod, loads, Vector3::Zero(), 16);
+    ElementColumns tip;
+    ASSERT_LT(tipColumns(chain, loads, false, 1e-10, backbone, tip), 1e-10);
+    Matrix3 inverse;
+    Matrix6 C;
+    backbone.passes->tangent(tip, false, inverse.data(), C.data());
+    EXPECT_EQ(isTipStable(C, 1.0, 1e-10), share < 1.0) << share;
+    EXPECT_EQ(isTipTurningStable(C.bottomRightCorner<3, 3>(), 1.0, 1e-10), share < 1.0 || share > 4.0) << share;
+    EXPECT_EQ(hasConjugatePoint(backbone), share > 4.0) << share;
+  }
 }
 
 // A rod pulled taut with a loop in it: the compliance of its tip is positive definite, and still the loop falls out.

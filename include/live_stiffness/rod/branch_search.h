@@ -48,11 +48,16 @@ class BranchSearch {
   // From zero load to `loads`. On kLoading and kBuckled the finder's last settle() was the result.
   BranchEnd run(const DeadLoads& loads);
 
+  // The same in so many equal steps, for loads that are little; up to the first of them there must be one equilibrium
+  // only. Asks for no more of a step than where it ends and whether it is stable. False: run() must tell.
+  bool runBriskly(const DeadLoads& loads, const Equilibrium& unloaded, int steps);
+
   // Share of the loads up to which the branch from zero load was seen to be stable.
   double stableShare() const { return stable_share_; }
 
  private:
   bool follow(const DeadLoads& target, double least_advance);
+  bool jumped(const Equilibrium& at, const Equilibrium& expected) const;
   bool goAround(const DeadLoads& target, const Vector3& push, BranchEnd& end);
 
   EquilibriumFinder& finder_;

@@ -25,8 +25,8 @@ struct ElementPasses {
   // Moves the guess g along with a change of the base moment (N m), to first order, by the columns held.
   void (*follow)(ElementState&, const double (&base_moment_change)[3]);
   // Columns at the end from those at the start, see propagate().
-  double (*propagate)(ElementState&, bool anew, const ElementColumns& start, double goal, bool with_defect,
-                      ElementColumns& end);
+  double (*propagate)(ElementState&, bool anew, const ElementColumns& start, ColumnSet set, double goal,
+                      bool with_defect, ElementColumns& end);
   // Material compliance and what stations() needs for this relative accuracy (see station_error for what comes of it);
   // after place_unloaded(), or after the shape under dead loads.
   void (*material)(ElementState&, bool unloaded, double accuracy);
@@ -42,7 +42,8 @@ struct ElementPasses {
   // follow() for each element.
   void (*follow_all)(const ChainState&, const double (&base_moment_change)[3]);
   // See tipColumns().
-  double (*columns)(const ChainState&, bool anew, double goal, bool with_defect, ElementColumns& tip);
+  double (*columns)(const ChainState&, bool anew, ColumnSet set, double goal, bool with_defect,
+                    ElementColumns& tip);
   // From the columns at the tip: inverse of the derivative of the residual with respect to the base moment, and the
   // compliance of T under a dead wrench [f; m] at T; with their defect taken out if `correct`. 3x3 and 6x6,
   // column-major.

@@ -66,7 +66,6 @@ struct ElementState {
   double turn[3];  // of the rest curvature from there to here, rad
   StageRow g_before[3], phi_before[6][3], phi_rate_before[6][3];
   double phi_start_before[6][3];
-  double column_change;      // of the last pass, relative
   double column_truncation;  // square of the highest Legendre coefficient of their rate, as it turns the end, relative
 
   // Plane of an arc: curvature (1/m) and its square, axis in the axes of its start, and in those of B its first direction
@@ -85,6 +84,12 @@ struct ElementState {
 
   // Material compliance of everything before the element's start and end, about these. Set by accumulate().
   PackedRow start_compliance, end_compliance;
+};
+
+// Which columns are found.
+enum class ColumnSet {
+  kBaseMoment,  // the first three; the others are nothing
+  kAll,
 };
 
 // Derivatives of a section's state with respect to [base moment, tip force]: rotation phi (rad, R changes by

@@ -42,6 +42,6 @@ bool shoot(const Chain& chain, const DeadLoads& loads, const Vector3& base_momen
 // estimated to be left of their error in any element, relative; infinity if one did not converge to `goal`. With their
 // defect (see ElementColumns) they are of order `goal` squared where it is taken out, and cheaper.
 double tipColumns(const Chain& chain, const DeadLoads& loads, bool anew, double goal, Backbone& backbone,
-                  ElementColumns& columns, bool with_defect = false);
+                  ElementColumns& columns, bool with_defect = false, ColumnSet set = ColumnSet::kAll);
 
 }  // namespace live_stiffness

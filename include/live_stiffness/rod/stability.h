@@ -13,5 +13,9 @@ double loadNumber(const Chain& chain, const DeadLoads& loads, const Backbone& ba
 // The tangent compliance C of the tip is positive definite, and clearly so: not neutral. softness: rotation of the softest
 // segment by a unit moment, rad/(N m); error: relative, of C apart from its growth towards buckling.
 bool isTipStable(const Matrix6& C, double softness, double error);
+// The same of its angular block alone, rad/(N m). Where stability is lost shows there, too: the motion by which a rod gives
+// way under dead loads turns its tip, because at the tip its moment does not change, and if the tip did not turn either,
+// nothing before it would (the linearised rod is a first-order equation in both).
+bool isTipTurningStable(const Matrix3& C, double softness, double error);
 
 }  // namespace live_stiffness

@@ -73,14 +73,16 @@ class StaticsSolver {
   bool findEquilibrium(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
   bool findAlongLoads(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
   void polish(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
-  bool findTangent(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
+  bool findTangent(const DeadLoads& loads, Backbone& backbone, StaticsReport& report, ColumnSet set = ColumnSet::kAll);
   bool mayBuckle(const DeadLoads& loads, const Backbone& backbone) const;
-  bool isStable(const DeadLoads& loads, const Backbone& backbone, const StaticsReport& report) const;
+  bool isStable(const DeadLoads& loads, const Backbone& backbone, const StaticsReport& report,
+                ColumnSet set = ColumnSet::kAll) const;
   bool updateInverse(const DeadLoads& loads, double goal, Backbone& backbone);
   bool march(const DeadLoads& loads, const Vector3& base_moment, Backbone& backbone, Vector3& residual);
   bool newton(const DeadLoads& loads, Backbone& backbone, int max_iterations, StaticsReport& report);
   void forgetGuesses(const DeadLoads& loads, Backbone& backbone);
   void placeFresh(const DeadLoads& loads, Backbone& backbone);
+  Vector3 momentOfUnloaded(const DeadLoads& loads, const Backbone& backbone) const;
   double bendingOf(const Vector3& moment) const { return softness_ * moment.norm(); }
 
   Chain chain_;
