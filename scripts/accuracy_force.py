@@ -206,6 +206,12 @@ class Force:
             say("| %s | %s | %.3f N (%.2f) | %.3f N (%.2f) | %.2f N (%.2f) | %.0f %% | %.2f s | %.2f s |" % (
                 label, option, score["rms_n"], score["rms_truth_n"], score["rms_compliant_n"], score["rms_compliant_truth_n"],
                 score["peak_n"], score["peak_truth_n"], 100.0 * score["seen"], score["longest_false_s"], score["delay_s"]))
+        everything = scores["all channels", ""]
+        shown = 1e3 * everything["stiff_compliance_m_per_n"]
+        say("", "**What stands in the way of all channels.** Along its stiffest axis the model's tip moves by %.1f mm/N during the pushes, so" % shown,
+            "that 0.12 N are %.2f mm. So well would a model have to know where the tip of a pushed arm is. Without any model, and without a" % (0.12 * shown),
+            "push, the same arm at nearly the same pressure moved by %s mm more in one session than in the other (above)." % " and ".join(
+                "%.1f" % difference for difference in report.sessions_differ))
         own = self.path("no_load.yaml")
         self.run("register_recording", self.scene, no_load, own)
         self.run("estimate_wrench", self.scene, no_load, "--registration", own, "-o", self.path("forces.csv"))

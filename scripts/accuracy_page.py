@@ -107,8 +107,11 @@ class Report:
                  % (1e3 * best.left_out()), "", "![](figures/accuracy_no_load.svg)", "", "![](figures/accuracy_load_1.svg)", "")
         self.say("The two sessions themselves differ. Without any model, from the rest before 3 s to the end of a plateau of one pair",
                  "alone, the tip moved by", "")
+        self.sessions_differ = []  # mm
         for pair, spans in ((1, (("no_load", 27.3, 27.9), ("load_1", 9.5, 10.3))),
                             (3, (("no_load", 31.0, 31.4), ("load_1", 34.0, 34.8)))):
+            moved = [self.recordings[name].displacement(pair, start, end)[0] for name, start, end in spans]
+            self.sessions_differ.append(abs(moved[0] - moved[1]))
             self.say("- pair %d: %s." % (pair, "; ".join("%.1f mm at %.3f bar in `%s` (%g to %g s)" % (
                 *self.recordings[name].displacement(pair, start, end), name, start, end) for name, start, end in spans)))
         self.say("", "No model with the same parameters can give both; part of the difference goes into the registration.", "")

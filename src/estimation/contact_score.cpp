@@ -72,6 +72,7 @@ ContactScore contactScore(const std::vector<ContactSample>& samples) {
         score.peak = std::max(score.peak, sample.estimate.norm());
         score.peak_compliant = std::max(score.peak_compliant, compliant(sample.estimate).norm());
       }
+      score.stiff_compliance += principal.eigenvalues()[0];
       ++score.during;
     }
     const bool is_false = sample.contact && sample.estimate.norm() > ContactScore::kFalse &&
@@ -82,6 +83,7 @@ ContactScore contactScore(const std::vector<ContactSample>& samples) {
   }
   for (double* sum : {&score.rms, &score.rms_truth, &score.rms_compliant, &score.rms_compliant_truth})
     *sum = std::sqrt(*sum / std::max(1, score.during));
+  score.stiff_compliance /= std::max(1, score.during);
   score.seen = static_cast<double>(firm_seen) / std::max(1, firm);
   findDelay(times, truths, estimates, score);
   return score;
@@ -93,7 +95,7 @@ std::string ContactScore::text() const {
   out << pushes << " pushes, " << during << " samples. Force: RMS error " << rms << " N (of " << rms_truth << " N), peak "
       << peak << " N (measured " << peak_truth << " N). Compliant components: RMS error " << rms_compliant << " N (of "
       << rms_compliant_truth << " N), peak " << peak_compliant << " N (measured " << peak_compliant_truth
-      << " N). Contact seen " << 100.0 * seen << " %, longest false " << longest_false << " s. The estimate trails by "
+      << " N). Along the stiffest axis " << 1e3 * stiff_compliance << " mm/N. Contact seen " << 100.0 * seen << " %, longest false " << longest_false << " s. The estimate trails by "
       << 1e3 * delay << " ms (correlation " << correlation << ")";
   return out.str();
 }
@@ -114,6 +116,7 @@ std::string ContactScore::table() const {
   row("peak_truth_n", peak_truth);
   row("peak_compliant_n", peak_compliant);
   row("peak_compliant_truth_n", peak_compliant_truth);
+  row("stiff_compliance_m_per_n", stiff_compliance);
   row("seen", seen);
   row("longest_false_s", longest_false);
   row("delay_s", delay);

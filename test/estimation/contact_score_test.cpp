@@ -41,6 +41,7 @@ TEST(ContactScore, ErrorAlongTheStiffAxisIsNoErrorOfTheCompliantComponents) {
   const ContactScore score = contactScore(pushedTwice(Vector3(0.3, 0.0, 0.4), Vector3(0.0, 0.03, -0.4)));
   EXPECT_NEAR(score.rms, std::hypot(0.03, 0.4), 1e-15);
   EXPECT_NEAR(score.rms_compliant, 0.03, 1e-15);
+  EXPECT_NEAR(score.stiff_compliance, 0.001, 1e-15);
 }
 
 TEST(ContactScore, ErrorThatTheSensorDoesNotSeeIsNoneOfTheForce) {

@@ -25,11 +25,12 @@ struct ContactScore {
   static constexpr double kSettle = 1.0;   // s that a push and its end may take to be seen
 
   int pushes = 0;              // times that the force rose above kTouch after at least kSettle below it
-  int during = 0;              // samples with a true force of at least kTouch; the next eight are over them
+  int during = 0;              // samples with a true force of at least kTouch; the next nine are over them
   double rms = 0.0, rms_truth = 0.0;                      // error of what the sensor sees of the force, and the force, N
   double rms_compliant = 0.0, rms_compliant_truth = 0.0;  // of the compliant components, seen or not, N
   double peak = 0.0, peak_truth = 0.0;                      // largest force, estimated while in contact and true, N
   double peak_compliant = 0.0, peak_compliant_truth = 0.0;  // the same of the compliant components, N
+  double stiff_compliance = 0.0;  // mean along the stiffest principal axis, m/N: how little of a force shows there
   double seen = 0.0;           // share of samples with contact, of those that have been pushed by kFirm for kSettle
   double longest_false = 0.0;  // longest contact with an estimate above kFalse, nothing having touched for kSettle, s
   // By which the estimate trails the truth, s: where the cross-correlation of the compliant components is largest,
