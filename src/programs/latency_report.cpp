@@ -1,9 +1,11 @@
-// latency_report: measures from pressure stamp to received estimate, of a running stiffness_node or with --nodelet of one
-// that it loads into itself; prints one row for each rate, for scripts/latency.
+// latency_report: measures from pressure stamp to estimate, of a running stiffness_node or with --nodelet of one that it
+// loads into itself: until the estimate is delivered, in the queue of a subscriber, and until that subscriber's own thread
+// has it. Prints one row for each rate, for scripts/latency.
 
 #include <live_stiffness/ChamberPressures.h>
 #include <live_stiffness/StiffnessEstimate.h>
 #include <nodelet/loader.h>
+#include <ros/callback_queue.h>
 #include <ros/ros.h>
 
 #include <algorithm>
@@ -11,7 +13,9 @@
 #include <boost/program_options.hpp>
 #include <cmath>
 #include <cstdio>
+#include <deque>
 #include <iostream>
+#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -24,14 +28,53 @@ using live_stiffness::StiffnessEstimate;
 
 constexpr double kPatience = 10.0;  // s
 
+// Notes when each callback was delivered; asked in the order of the calls.
+class TimedQueue : public ros::CallbackQueue {
+ public:
+  void addCallback(const ros::CallbackInterfacePtr& callback, uint64_t removal_id) override {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      delivered_.push_back(ros::Time::now());
+    }
+    ros::CallbackQueue::addCallback(callback, removal_id);
+  }
+  ros::Time nextDelivered() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (delivered_.empty()) return ros::Time::now();
+    const ros::Time time = delivered_.front();
+    delivered_.pop_front();
+    return time;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::deque<ros::Time> delivered_;
+};
+
+// Sorted, in microseconds.
+class Latencies {
+ public:
+  explicit Latencies(std::vector<double> seconds) : sorted_(std::move(seconds)) { std::sort(sorted_.begin(), sorted_.end()); }
+  double at(double share) const {
+    return sorted_.empty() ? NAN : 1e6 * sorted_[std::min<size_t>(sorted_.size() - 1, share * sorted_.size())];
+  }
+
+ private:
+  std::vector<double> sorted_;
+};
+
 // Publishes pressures, each its own, and times the estimate of each.
 class Stopwatch {
  public:
   Stopwatch(ros::NodeHandle node, int channels)
       : channels_(channels),
         publisher_(node.advertise<ChamberPressures>("chamber_pressures", 1000)),
-        subscriber_(node.subscribe("stiffness_node/estimate", 1000, &Stopwatch::onEstimate, this,
-                                   ros::TransportHints().tcpNoDelay())) {}
+        spinner_(1, &queue_) {
+    node.setCallbackQueue(&queue_);
+    subscriber_ = node.subscribe("stiffness_node/estimate", 1000, &Stopwatch::onEstimate, this,
+                                 ros::TransportHints().tcpNoDelay());
+    spinner_.start();
+  }
 
   bool waitForNode() const {
     const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kPatience);
@@ -44,8 +87,10 @@ class Stopwatch {
 
   // rate: Hz; 0: the next as soon as the last is answered. Rows are printed in microseconds.
   void measure(double rate, double seconds, const std::string& transport) {
-    latencies_.clear();
-    latencies_.reserve(static_cast<size_t>(seconds * (rate > 0.0 ? rate : 20000.0)));
+    for (std::vector<double>* latencies : {&delivered_, &received_}) {
+      latencies->clear();
+      latencies->reserve(static_cast<size_t>(seconds * (rate > 0.0 ? rate : 20000.0)));
+    }
     answered_ = 0;
     solve_time_ = error_ = 0.0;
     live_stiffness::ProgressBar bar(transport + ", " + (rate > 0.0 ? std::to_string(int(rate)) + " Hz" : "as fast as it goes"),
@@ -92,31 +137,31 @@ class Stopwatch {
   }
 
   void onEstimate(const StiffnessEstimate::ConstPtr& message) {
-    const ros::Time now = ros::Time::now();
+    const ros::Time now = ros::Time::now(), delivered = queue_.nextDelivered();
     if (message->stale || message->header.stamp == newest_) return;  // a heartbeat's
     newest_ = message->header.stamp;
-    latencies_.push_back((now - newest_).toSec());
+    delivered_.push_back((delivered - newest_).toSec());
+    received_.push_back((now - newest_).toSec());
     solve_time_ += message->solve_time;
     error_ = std::max(error_, message->numerical_error);
     ++answered_;
   }
 
   void print(const std::string& transport, double rate, long sent, double seconds) {
-    std::vector<double> sorted = latencies_;
-    std::sort(sorted.begin(), sorted.end());
-    const auto at = [&](double share) {
-      return sorted.empty() ? NAN : 1e6 * sorted[std::min<size_t>(sorted.size() - 1, share * sorted.size())];
-    };
-    std::printf("%s,%g,%.0f,%ld,%ld,%.1f,%.1f,%.1f,%.1f,%.1f,%.1e\n", transport.c_str(), rate, sent / seconds, sent,
-                sent - answered_.load(), at(0.5), at(0.99), at(0.999), at(1.0), 1e6 * solve_time_ / std::max(1l, answered_.load()),
+    const Latencies delivered(delivered_), received(received_);
+    std::printf("%s,%g,%.0f,%ld,%ld,%.1f,%.1f,%.1f,%.1f,%.1f,%.1f,%.1f,%.1f,%.1e\n", transport.c_str(), rate, sent / seconds,
+                sent, sent - answered_.load(), delivered.at(0.5), delivered.at(0.99), delivered.at(0.999), received.at(0.5),
+                received.at(0.99), received.at(0.999), received.at(1.0), 1e6 * solve_time_ / std::max(1l, answered_.load()),
                 error_);
     std::fflush(stdout);
   }
 
   int channels_;
   ros::Publisher publisher_;
+  TimedQueue queue_;
+  ros::AsyncSpinner spinner_;
   ros::Subscriber subscriber_;
-  std::vector<double> latencies_;  // s
+  std::vector<double> delivered_, received_;  // s
   std::atomic<long> answered_{0};
   ros::Time newest_;
   double solve_time_ = 0.0, error_ = 0.0;  // sum, s; largest estimated relative error
