@@ -41,8 +41,6 @@ def main():
     print("Machine: %s, Linux %s, no real-time priority. Build: %s.\n"
           "Load average when this was written: %.1f; with more than 1 or so, other work shared the processors, and the tails are its.\n"
           % (processor(), platform.release(), build_type, os.getloadavg()[0]))
-    if not drawn:
-        print("`~busy_wait`: the thread that estimates looks for pressures without rest, on a processor of its own.\n")
     print("| transport | asked | reached, Hz | sent | lost | delivered: median, us | p99, us | p99.9, us | received: median, us | p99, us | "
           "p99.9, us | max, us | mean solve, us | delivered / solve | largest estimated error |\n" + "|---" * 15 + "|")
     for row in rows:
