@@ -37,9 +37,9 @@ ros::NodeHandle CallbackLane::handle(ros::NodeHandle node) {
   return node;
 }
 
-void CallbackLane::start(const std::string& name, int realtime_priority, bool busy_wait) {
+void CallbackLane::start(const std::string& name, int realtime_priority) {
   is_running_ = true;
-  thread_ = std::thread(&CallbackLane::run, this, busy_wait);
+  thread_ = std::thread(&CallbackLane::run, this);
   pthread_setname_np(thread_.native_handle(), name.substr(0, 15).c_str());
   if (realtime_priority <= 0) return;
   sched_param scheduling{};
@@ -58,10 +58,8 @@ void CallbackLane::stop() {
   queue_.clear();
 }
 
-void CallbackLane::run(bool busy_wait) {
-  const ros::WallDuration patience(busy_wait ? 0.0 : 0.1);
-  while (is_running_ && ros::ok())
-    if (queue_.callOne(patience) == ros::CallbackQueue::Empty && busy_wait) std::this_thread::yield();
+void CallbackLane::run() {
+  while (is_running_ && ros::ok()) queue_.callOne(ros::WallDuration(0.1));
 }
 
 std::string lockMemory() {

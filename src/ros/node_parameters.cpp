@@ -28,7 +28,6 @@ void readModel(ParameterReader& read, NodeParameters& parameters, FaultList& fau
   if (priority != std::floor(priority))
     faults.add("~realtime_priority = " + numberText(priority) + ": must be a whole number");
   parameters.realtime_priority = static_cast<int>(priority);
-  parameters.busy_wait = read.boolean("busy_wait", parameters.busy_wait);
   parameters.lock_memory = read.boolean("lock_memory", parameters.lock_memory);
 }
 

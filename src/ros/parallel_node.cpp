@@ -31,7 +31,7 @@ ParallelNode::ParallelNode(const ros::NodeHandle& node, const ros::NodeHandle& p
   timers_ = {live_.handle(node).createTimer(ros::Duration(1.0 / parameters_.heartbeat), &ParallelNode::onHeartbeat, this),
              node_.createTimer(ros::Duration(1.0 / parameters_.marker_rate), &ParallelNode::onMarkers, this)};
   ROS_INFO("%d rods", parameters_.scene.rodCount());
-  live_.start("live_estimate");
+  live_.start("live_estimate", 0);
 }
 
 void ParallelNode::onLengths(const Eigen::VectorXd& lengths, const ros::Time& stamp) {

@@ -68,9 +68,9 @@ StiffnessNode::StiffnessNode(const ros::NodeHandle& node, const ros::NodeHandle&
   ROS_INFO("%s, stepping %s, %d segment(s), %d chamber(s) on %d channel(s)", modelName(parameters_.model).c_str(),
            steppingName(parameters_.model.stepping).c_str(), parameters_.scene.segmentCount(),
            parameters_.scene.chamberCount(), pressure_input_.channelCount());
-  live_.start("live_estimate", parameters_.realtime_priority, parameters_.busy_wait);
-  tracking_.start("live_tracking");
-  drawing_.start("live_drawing");
+  live_.start("live_estimate", parameters_.realtime_priority);
+  tracking_.start("live_tracking", 0);
+  drawing_.start("live_drawing", 0);
 }
 
 StiffnessNode::~StiffnessNode() {

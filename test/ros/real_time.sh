@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# ~busy_wait, ~realtime_priority and ~lock_memory with the real node: in force where the system permits them, else a warning
-# that says the way out, and a node that works. At the fastest heartbeat, which leaves its inputs a millisecond to connect.
+# ~realtime_priority and ~lock_memory with the real node: in force where the system permits them, else a warning that says
+# the way out, and a node that works. At the fastest heartbeat, which leaves its inputs a millisecond to connect.
 # BUILD_DIR SOURCE_DIR
 source "$2/test/support/ros_script.sh"
 
@@ -11,34 +11,24 @@ within 20 "no master" rosparam list
 "$programs/rig_simulator" "_scene_file:=$scene" >"$work/rig.log" 2>&1 &
 pids+=($!)
 
-start_node() {  # LOG [COMMAND...] -- PARAMETERS...
-  local log=$1 command=()
+start_node() {  # LOG COMMAND...
+  local log=$1
   shift
-  while [ "$1" != -- ]; do command+=("$1"); shift; done
-  shift
-  "${command[@]}" "$programs/stiffness_node" "_scene_file:=$scene" "$@" _heartbeat_hz:=1000 >"$work/$log" 2>&1 &
+  "$@" "$programs/stiffness_node" "_scene_file:=$scene" _realtime_priority:=20 _lock_memory:=true \
+    _heartbeat_hz:=1000 >"$work/$log" 2>&1 &
   node=$!
   pids+=("$node")
   within 20 "no fresh estimate" sh -c "timeout 10 rostopic echo -n 1 /stiffness_node/estimate/stale | grep -q False"
 }
-thread_named() { grep -l "^$1\$" /proc/$node/task/*/comm | cut -d / -f 5; }
 end_node() {
   kill -INT $node
   wait $node || fail "the node did not end well"
 }
 
-echo "- without rest"
-is_running() { awk '{ exit $3 != "R" }' "/proc/$node/task/$1/stat"; }
-is_busy() { for _ in {1..20}; do is_running "$1" || return 1; done; }
-start_node busy.log -- _busy_wait:=true
-within 20 "the thread that estimates rests" is_busy "$(thread_named live_estimate)"
-end_node
-
 echo "- not permitted"
 deny=()
 [ "$(id -u)" != 0 ] || deny=(setpriv --bounding-set=-sys_nice,-ipc_lock --inh-caps=-sys_nice,-ipc_lock)
-demanding=(_realtime_priority:=20 _lock_memory:=true)
-start_node denied.log prlimit --rtprio=0:0 --memlock=65536:65536 "${deny[@]}" -- "${demanding[@]}"
+start_node denied.log prlimit --rtprio=0:0 --memlock=65536:65536 "${deny[@]}"
 grep -q "realtime_priority = 20 is not permitted.*rtprio 20" "$work/denied.log" || fail "no warning of the priority"
 locks=true
 [ -z "${ASAN_OPTIONS:-}" ] || locks=false  # sanitizers make mlockall() do nothing
@@ -50,11 +40,11 @@ if ! chrt -f 20 true 2>/dev/null || [ "$(id -u)" != 0 ]; then
   exit 0
 fi
 echo "- permitted"
-start_node permitted.log -- "${demanding[@]}"
+start_node permitted.log
 ! grep -qE "not permitted|cannot be locked" "$work/permitted.log" || fail "a warning although it is permitted"
-thread=$(thread_named live_estimate)
+thread=$(grep -l '^live_estimate$' /proc/$node/task/*/comm | cut -d / -f 5)
 chrt -p "$thread" | grep -q "SCHED_FIFO" || fail "estimates are not made under SCHED_FIFO"
-thread=$(thread_named live_drawing)
+thread=$(grep -l '^live_drawing$' /proc/$node/task/*/comm | cut -d / -f 5)
 chrt -p "$thread" | grep -q "SCHED_OTHER" || fail "markers are not drawn in a thread of their own, that is not real-time"
 ! $locks || [ "$(awk '/VmLck/ { print $2 }' /proc/$node/status)" -gt 0 ] || fail "nothing is locked in memory"
 end_node

@@ -23,10 +23,9 @@ class CallbackLane {
   // Held during each callback.
   std::mutex& mutex() { return mutex_; }
 
-  // Begins to call back, in a thread of this name (at most 15 characters).
-  // realtime_priority: of SCHED_FIFO, 1 to 99; 0: like any thread. Warns, and goes on without, when the system does not
-  // permit it. busy_wait: looks for callbacks without rest instead of sleeping until one comes; takes a processor.
-  void start(const std::string& name, int realtime_priority = 0, bool busy_wait = false);
+  // Begins to call back, in a thread of this name (at most 15 characters). realtime_priority: of SCHED_FIFO, 1 to 99;
+  // 0: like any thread. Warns, and goes on without, when the system does not permit it.
+  void start(const std::string& name, int realtime_priority);
   // Waits for the callback at work; none follows.
   void stop();
 
@@ -41,7 +40,7 @@ class CallbackLane {
     std::mutex& mutex_;
   };
 
-  void run(bool busy_wait);
+  void run();
 
   std::mutex mutex_;
   Queue queue_;

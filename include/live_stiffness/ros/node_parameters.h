@@ -22,7 +22,6 @@ struct NodeParameters {
   EstimatorOptions estimator;
   double heartbeat = 1.0;  // Hz
   int realtime_priority = 0;  // of SCHED_FIFO for the thread that estimates, 1 to 99; 0: like any thread
-  bool busy_wait = false;     // that thread looks for input without rest, and takes a processor
   bool lock_memory = false;   // so that no page of the process is swapped out
 
   PressureFormat pressure_format;
