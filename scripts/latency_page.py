@@ -8,7 +8,7 @@ import sys
 
 ROWS, BUILD = sys.argv[1:3]
 TARGETS_US = {"TCPROS": 1000.0, "nodelet": 200.0}  # of the 99th percentile
-DRAWN = " drawn"
+DRAWN, BARE_WAKE = " drawn", "bare wake"
 COLUMNS = ("transport rate reached sent lost delivered delivered_p99 delivered_p999 median p99 p999 max solve error").split()
 
 
@@ -24,7 +24,9 @@ def asked(row):
 
 def main():
     with open(ROWS) as file:
-        rows = [dict(zip(COLUMNS, line)) for line in csv.reader(file)]
+        lines = list(csv.reader(file))
+    rows = [dict(zip(COLUMNS, line)) for line in lines if line[0] != BARE_WAKE]
+    wakes = {float(line[1]): tuple(map(float, line[2:])) for line in lines if line[0] == BARE_WAKE}
     with open(BUILD + "/CMakeCache.txt") as cache:
         build_type = re.search(r"CMAKE_BUILD_TYPE:\w+=(\w*)", cache.read()).group(1)
     drawn = [row for row in rows if row["transport"].endswith(DRAWN)]
@@ -41,6 +43,8 @@ def main():
     print("Machine: %s, Linux %s, no real-time priority. Build: %s.\n"
           "Load average when this was written: %.1f; with more than 1 or so, other work shared the processors, and the tails are its.\n"
           % (processor(), platform.release(), build_type, os.getloadavg()[0]))
+    print("Just before, on this machine, with no node: a thread that waits is woken in " + "; ".join(
+        "%.0f us at %g Hz (p99 %.0f, p99.9 %.0f)" % (wake[0], rate, *wake[1:]) for rate, wake in sorted(wakes.items())) + ".\n")
     print("| transport | asked | reached, Hz | sent | lost | delivered: median, us | p99, us | p99.9, us | received: median, us | p99, us | "
           "p99.9, us | max, us | mean solve, us | delivered / solve | largest estimated error |\n" + "|---" * 15 + "|")
     for row in rows:
@@ -51,8 +55,10 @@ def main():
     print("\n| target | measured | |\n|---|---|---|")
     for row in rows:
         limit, p99 = TARGETS_US[row["transport"].split()[0]], float(row["delivered_p99"])
-        print("| %s, %s: p99 of delivered below %g us | %.1f us (received: %s) | %s |" % (
-            row["transport"], asked(row), limit, p99, row["p99"], "met" if p99 < limit else "**missed**"))
+        wake = wakes.get(float(row["rate"]))
+        times = ", %.1f bare wakes" % (p99 / wake[1]) if wake else ""
+        print("| %s, %s: p99 of delivered below %g us | %.1f us%s (received: %s us) | %s |" % (
+            row["transport"], asked(row), limit, p99, times, row["p99"], "met" if p99 < limit else "**missed**"))
     for row in rows:
         if float(row["rate"]) == 1000.0:
             seconds = int(row["sent"]) / float(row["reached"])

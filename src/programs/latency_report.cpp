@@ -1,6 +1,6 @@
 // latency_report: measures from pressure stamp to estimate, of a running stiffness_node or with --nodelet of one that it
 // loads into itself: until the estimate is delivered, in the queue of a subscriber, and until that subscriber's own thread
-// has it. Prints one row for each rate, for scripts/latency.
+// has it. Prints one row for each rate, for scripts/latency; with --bare-wake what it takes this machine to wake a thread.
 
 #include <live_stiffness/ChamberPressures.h>
 #include <live_stiffness/StiffnessEstimate.h>
@@ -12,6 +12,7 @@
 #include <atomic>
 #include <boost/program_options.hpp>
 #include <cmath>
+#include <condition_variable>
 #include <cstdio>
 #include <deque>
 #include <iostream>
@@ -167,6 +168,47 @@ class Stopwatch {
   double solve_time_ = 0.0, error_ = 0.0;  // sum, s; largest estimated relative error
 };
 
+// What the system needs to wake a thread that waits, with nothing else to do; prints rate, median and percentiles.
+void measureBareWake(double rate, double seconds) {
+  std::mutex mutex;
+  std::condition_variable changed;
+  bool is_called = false, is_over = false;
+  ros::WallTime called;
+  std::vector<double> taken;  // s
+  std::thread waiting([&] {
+    std::unique_lock<std::mutex> lock(mutex);
+    while (true) {
+      changed.wait(lock, [&] { return is_called || is_over; });
+      if (is_over) return;
+      taken.push_back((ros::WallTime::now() - called).toSec());
+      is_called = false;
+    }
+  });
+  live_stiffness::ProgressBar bar("bare wake, " + std::to_string(int(rate)) + " Hz", static_cast<long>(seconds));
+  const long count = static_cast<long>(rate * seconds);
+  ros::WallTime next = ros::WallTime::now();
+  for (long i = 0; ros::ok() && i <= count; ++i) {
+    bar.update(static_cast<long>(i / rate));
+    next += ros::WallDuration(1.0 / rate);
+    ros::WallTime::sleepUntil(next);
+    {
+      const std::lock_guard<std::mutex> lock(mutex);
+      called = ros::WallTime::now();
+      (i < count ? is_called : is_over) = true;
+    }
+    changed.notify_one();
+  }
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    is_over = true;
+  }
+  changed.notify_one();
+  waiting.join();
+  const Latencies wake(std::move(taken));
+  std::printf("bare wake,%g,%.1f,%.1f,%.1f\n", rate, wake.at(0.5), wake.at(0.99), wake.at(0.999));
+  std::fflush(stdout);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -178,6 +220,7 @@ int main(int argc, char** argv) {
   options::options_description description("latency_report [OPTION...]: rates and latencies of stiffness_node, as CSV");
   description.add_options()("help,h", "this text")(
       "nodelet", "load the nodelet into this process; else a running stiffness_node is measured")(
+      "bare-wake", "measure, without any node, how long this machine takes to wake a waiting thread")(
       "channels", options::value(&wanted.channels)->default_value(6), "pressures in a message")(
       "seconds", options::value(&wanted.seconds)->default_value(20.0), "of 40 Hz, and as fast as it goes, each")(
       "minutes", options::value(&wanted.minutes)->default_value(1.0), "of 1 kHz");
@@ -197,6 +240,10 @@ int main(int argc, char** argv) {
     return 0;
   }
   ros::init(argc, argv, "latency_report");
+  if (given.count("bare-wake")) {
+    for (double rate : {40.0, 1000.0}) measureBareWake(rate, wanted.seconds);
+    return 0;
+  }
   ros::NodeHandle node;
   ros::AsyncSpinner spinner(1);
   spinner.start();
