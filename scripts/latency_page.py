@@ -9,7 +9,8 @@ import sys
 ROWS, BUILD = sys.argv[1:3]
 TARGETS_US = {"TCPROS": 1000.0, "nodelet": 200.0}  # of the 99th percentile
 DRAWN, BARE_WAKE = " drawn", "bare wake"
-COLUMNS = ("transport rate reached sent lost delivered delivered_p99 delivered_p999 median p99 p999 max solve error").split()
+# median to max: received
+COLUMNS = "transport rate reached sent lost delivered delivered_p99 delivered_p999 median p99 p999 max solve error".split()
 
 
 def processor():

@@ -95,7 +95,8 @@ std::string ContactScore::text() const {
   out << pushes << " pushes, " << during << " samples. Force: RMS error " << rms << " N (of " << rms_truth << " N), peak "
       << peak << " N (measured " << peak_truth << " N). Compliant components: RMS error " << rms_compliant << " N (of "
       << rms_compliant_truth << " N), peak " << peak_compliant << " N (measured " << peak_compliant_truth
-      << " N). Along the stiffest axis " << 1e3 * stiff_compliance << " mm/N. Contact seen " << 100.0 * seen << " %, longest false " << longest_false << " s. The estimate trails by "
+      << " N). Along the stiffest axis " << 1e3 * stiff_compliance << " mm/N. Contact seen "
+      << 100.0 * seen << " %, longest false " << longest_false << " s. The estimate trails by "
       << 1e3 * delay << " ms (correlation " << correlation << ")";
   return out.str();
 }

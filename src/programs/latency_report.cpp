@@ -12,7 +12,6 @@
 #include <atomic>
 #include <boost/program_options.hpp>
 #include <cmath>
-#include <condition_variable>
 #include <cstdio>
 #include <deque>
 #include <iostream>
@@ -20,6 +19,8 @@
 #include <thread>
 #include <vector>
 
+#include "bare_wake.h"
+#include "latencies.h"
 #include "progress_bar.h"
 
 namespace {
@@ -50,18 +51,6 @@ class TimedQueue : public ros::CallbackQueue {
  private:
   std::mutex mutex_;
   std::deque<ros::Time> delivered_;
-};
-
-// Sorted, in microseconds.
-class Latencies {
- public:
-  explicit Latencies(std::vector<double> seconds) : sorted_(std::move(seconds)) { std::sort(sorted_.begin(), sorted_.end()); }
-  double at(double share) const {
-    return sorted_.empty() ? NAN : 1e6 * sorted_[std::min<size_t>(sorted_.size() - 1, share * sorted_.size())];
-  }
-
- private:
-  std::vector<double> sorted_;
 };
 
 // Publishes pressures, each its own, and times the estimate of each.
@@ -149,7 +138,7 @@ class Stopwatch {
   }
 
   void print(const std::string& transport, double rate, long sent, double seconds) {
-    const Latencies delivered(delivered_), received(received_);
+    const live_stiffness::Latencies delivered(delivered_), received(received_);
     std::printf("%s,%g,%.0f,%ld,%ld,%.1f,%.1f,%.1f,%.1f,%.1f,%.1f,%.1f,%.1f,%.1e\n", transport.c_str(), rate, sent / seconds,
                 sent, sent - answered_.load(), delivered.at(0.5), delivered.at(0.99), delivered.at(0.999), received.at(0.5),
                 received.at(0.99), received.at(0.999), received.at(1.0), 1e6 * solve_time_ / std::max(1l, answered_.load()),
@@ -167,47 +156,6 @@ class Stopwatch {
   ros::Time newest_;
   double solve_time_ = 0.0, error_ = 0.0;  // sum, s; largest estimated relative error
 };
-
-// What the system needs to wake a thread that waits, with nothing else to do; prints rate, median and percentiles.
-void measureBareWake(double rate, double seconds) {
-  std::mutex mutex;
-  std::condition_variable changed;
-  bool is_called = false, is_over = false;
-  ros::WallTime called;
-  std::vector<double> taken;  // s
-  std::thread waiting([&] {
-    std::unique_lock<std::mutex> lock(mutex);
-    while (true) {
-      changed.wait(lock, [&] { return is_called || is_over; });
-      if (is_over) return;
-      taken.push_back((ros::WallTime::now() - called).toSec());
-      is_called = false;
-    }
-  });
-  live_stiffness::ProgressBar bar("bare wake, " + std::to_string(int(rate)) + " Hz", static_cast<long>(seconds));
-  const long count = static_cast<long>(rate * seconds);
-  ros::WallTime next = ros::WallTime::now();
-  for (long i = 0; ros::ok() && i <= count; ++i) {
-    bar.update(static_cast<long>(i / rate));
-    next += ros::WallDuration(1.0 / rate);
-    ros::WallTime::sleepUntil(next);
-    {
-      const std::lock_guard<std::mutex> lock(mutex);
-      called = ros::WallTime::now();
-      (i < count ? is_called : is_over) = true;
-    }
-    changed.notify_one();
-  }
-  {
-    const std::lock_guard<std::mutex> lock(mutex);
-    is_over = true;
-  }
-  changed.notify_one();
-  waiting.join();
-  const Latencies wake(std::move(taken));
-  std::printf("bare wake,%g,%.1f,%.1f,%.1f\n", rate, wake.at(0.5), wake.at(0.99), wake.at(0.999));
-  std::fflush(stdout);
-}
 
 }  // namespace
 
@@ -241,7 +189,7 @@ int main(int argc, char** argv) {
   }
   ros::init(argc, argv, "latency_report");
   if (given.count("bare-wake")) {
-    for (double rate : {40.0, 1000.0}) measureBareWake(rate, wanted.seconds);
+    for (double rate : {40.0, 1000.0}) live_stiffness::measureBareWake(rate, wanted.seconds);
     return 0;
   }
   ros::NodeHandle node;

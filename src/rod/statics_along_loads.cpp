@@ -11,13 +11,13 @@ namespace {
 
 // A brisk search takes loads with a load number up to this one, a step for each unit.
 constexpr double kBrisk = 6.0;
-constexpr double kRough = 1e-2;           // accuracy that does on its way, of sweeps and columns
-constexpr double kFarFromBuckling = 4.0;  // amplification up to which it does
+constexpr double kRough = 1e-2;            // accuracy that does on its way, of sweeps and columns
+constexpr double kFarFromBuckling = 4.0;   // amplification up to which it does: such errors grow by it
 // Of rods that the loads bend little sweeps converge surely. Under more load a base moment must be known to more digits
 // than they give, and Newton's method is not to be kept waiting (hard_cases_test).
-constexpr double kLittle = 3.0;           // load number
-constexpr double kAwayFromBuckling = 8.0; // amplification
-constexpr double kRoughElements = 1e-3;   // accuracy that does for elements on the way
+constexpr double kLittle = 3.0;            // load number
+constexpr double kAwayFromBuckling = 8.0;  // amplification
+constexpr double kRoughElements = 1e-3;    // accuracy that does for elements on the way, of either search
 
 }  // namespace
 

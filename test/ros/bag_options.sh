@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# register_recording, calibrate, estimate_wrench and replay of a bag with a rig's own topics, absolute pressures in kPa and
+# register_recording, calibrate and estimate_wrench of a bag with a rig's own topics, absolute pressures in kPa and
 # positions in mm say the same as of the bag it was made from.
 # BUILD_DIR SOURCE_DIR
 set -euo pipefail
@@ -33,7 +33,8 @@ with rosbag.Bag(sys.argv[1] + "/plain.bag") as plain, rosbag.Bag(sys.argv[1] + "
 EOF
 own=(--pressures /valves/measured --pose /ndi/tip --tip-wrench /ati/raw --pressure-unit kPa --pressure-reference absolute --position-unit mm)
 
-# same WHAT A B: files that hold the same numbers, to 1e-6 of the largest of a line, and the same words, their own names apart.
+# same WHAT A B: files whose lines hold the same numbers, to 1e-6 of the largest of a line (names, comments and times apart): far
+# below what any unit taken wrongly would do, far above the rounding of units that iterations carry on.
 same() {
   /usr/bin/python3 - "$@" <<'EOF' || fail "$1 differs"
 import re

@@ -48,8 +48,8 @@ class BranchSearch {
   // From zero load to `loads`. On kLoading and kBuckled the finder's last settle() was the result.
   BranchEnd run(const DeadLoads& loads);
 
-  // The same in so many equal steps, for loads that are little; up to the first of them there must be one equilibrium
-  // only. Asks for no more of a step than where it ends and whether it is stable. False: run() must tell.
+  // The same in so many equal steps (at least one), for loads that are little; up to the first of them there must be one
+  // equilibrium only. unloaded: base moment and tip at zero load. Reads no tangents. True: kLoading; false: run() must tell.
   bool runBriskly(const DeadLoads& loads, const Equilibrium& unloaded, int steps);
 
   // Share of the loads up to which the branch from zero load was seen to be stable.

@@ -40,7 +40,8 @@ bool shoot(const Chain& chain, const DeadLoads& loads, const Vector3& base_momen
 // Derivatives of the state at T with respect to [base moment, tip force] (columns), for the shape of the last sweep but
 // Pass::kOnce; their m is that of the residual. The elements' own columns are the guess unless `anew`. Returns what is
 // estimated to be left of their error in any element, relative; infinity if one did not converge to `goal`. With their
-// defect (see ElementColumns) they are of order `goal` squared where it is taken out, and cheaper.
+// defect (see ElementColumns) they are of order `goal` squared where it is taken out, and cheaper. Columns that are not
+// in `set` are returned as zero.
 double tipColumns(const Chain& chain, const DeadLoads& loads, bool anew, double goal, Backbone& backbone,
                   ElementColumns& columns, bool with_defect = false, ColumnSet set = ColumnSet::kAll);
 
