@@ -9,7 +9,6 @@ namespace {
 
 // One element of S stages that bends by x rad leaves an error of about (x / kReach[S])^(2 S).
 constexpr double kReach[kMaxStages + 1] = {0, 0, 3.5, 4.7, 5.0, 5.0, 5.7, 5.8};
-constexpr double kMaxBending = 1.5;  // rad an element, whatever the accuracy
 constexpr double kLeastDemand = 1e-3;
 
 // Stages to choose from, and what an element costs with them, relative (docs/speed_against_error.md).
@@ -18,9 +17,8 @@ constexpr struct {
   double cost;
 } kChoices[] = {{3, 0.5}, {5, 0.85}, {7, 1.0}};
 
-double bendingOfAnElement(int stages, double accuracy) {
-  return std::min(kMaxBending, kReach[stages] * std::pow(accuracy, 0.5 / stages));
-}
+// As far as accuracy goes, rad.
+double bendingOfAnElement(int stages, double accuracy) { return kReach[stages] * std::pow(accuracy, 0.5 / stages); }
 
 int countOf(double demand, double bending) {
   const double elements = demand / bending;
@@ -59,8 +57,8 @@ bool Discretisation::chooseUnloaded(Backbone& backbone) {
     const RestState& rest = backbone.rest[part.segment];
     const double length = rest.stretch * part.length, bending_squared = length * length * rest.curvature.squaredNorm();
     // Most often one is enough, which takes neither root nor quotient to see.
-    const bool one = bending_squared <= kMaxBending * kMaxBending;
-    backbone.element_count[part.segment] = one ? 1 : countOf(std::sqrt(bending_squared), kMaxBending);
+    const bool one = bending_squared <= kShort * kShort;
+    backbone.element_count[part.segment] = one ? 1 : countOf(std::sqrt(bending_squared), kShort);
   }
   const int cheapest = accuracy_ >= kFewNodesAccuracy ? kChoices[0].stages : kMaxStages;
   return backbone.resize(choices_.size() == 1 ? choices_[0].stages : cheapest);
@@ -68,9 +66,13 @@ bool Discretisation::chooseUnloaded(Backbone& backbone) {
 
 bool Discretisation::choose(const DeadLoads& loads, Backbone& backbone) {
   constexpr double kBendingOfLoadNumber = 1.25;  // L sqrt(|n| c_bt) counts as so much bending
-  const double force = loads.baseForce(chain_).norm(), moment = angular(loads.tip).norm();
+  const double moment = angular(loads.tip).norm();
+  Vector3 n = loads.baseForce(chain_);
   for (const Chain::Part& part : chain_.parts) {
+    const double n_start = n.norm();
+    n -= part.mass * loads.gravity;
     if (part.segment < 0) continue;
+    const double force = std::max(n_start, n.norm());
     const RestState& rest = backbone.rest[part.segment];
     const double length = rest.stretch * part.length;
     const double softness = rest.c.bending_torsion.diagonal().maxCoeff();
@@ -84,20 +86,20 @@ bool Discretisation::choose(const DeadLoads& loads, Backbone& backbone) {
 bool Discretisation::chooseForDemand(Backbone& backbone) {
   // One element each of the fewest stages, the cheapest choice, is enough more often than not.
   bool one_each = true;
-  for (size_t k = 0; k < demand_.size(); ++k) one_each = one_each && demandOf(k) <= choices_.front().bending;
+  for (size_t k = 0; k < demand_.size(); ++k) one_each = one_each && demandOf(k) <= bendingOf(choices_.front());
   const Choice* best = &choices_.front();
   double cheapest = std::numeric_limits<double>::infinity();
   for (const Choice& choice : choices_) {
     if (one_each) break;
     double cost = 0.0;
-    for (size_t k = 0; k < demand_.size(); ++k) cost += choice.cost * countOf(demandOf(k), choice.bending);
+    for (size_t k = 0; k < demand_.size(); ++k) cost += choice.cost * countOf(demandOf(k), bendingOf(choice));
     if (cost < cheapest) {
       cheapest = cost;
       best = &choice;
     }
   }
   for (size_t k = 0; k < demand_.size(); ++k)
-    backbone.element_count[k] = one_each ? 1 : countOf(demandOf(k), best->bending);
+    backbone.element_count[k] = one_each ? 1 : countOf(demandOf(k), bendingOf(*best));
   return backbone.resize(best->stages);
 }
 
@@ -112,7 +114,7 @@ bool Discretisation::refine(double amplification, Backbone& backbone, double tol
   constexpr double kMargin = 1.05, kMostGrowth = 2.0, kEasierBy = 0.8;
   constexpr int kPatience = 50;  // solves; each attempt with too little costs a second solve
   const int stages = backbone.passes->stages;
-  static const double kLongest = std::pow(2.0 * std::tan(0.7 * kMaxBending), 2);  // |g|^2 of 1.4 kMaxBending
+  static const double kLongest = std::pow(2.0 * std::tan(1.05), 2);  // |g|^2 of 2.1 rad
   bool wanting = false, easier = true;
   auto element = backbone.elements.begin();
   for (size_t segment = 0; segment < demand_.size(); ++segment) {
@@ -126,8 +128,9 @@ bool Discretisation::refine(double amplification, Backbone& backbone, double tol
     const bool too_long = longest > kLongest, fine = error <= std::max(accuracy_, tolerated) && !too_long;
     easier = easier && !too_long && caution_[segment] > 1.0;
     if (fine && !easier) continue;
+    const double capacity = count * std::min(most_, bendingOfAnElement(stages, accuracy_));
     // Bending at which elements of so many stages would leave just this error.
-    const double seen = std::pow(error / accuracy_, 0.5 / stages) * bendingOfAnElement(stages, accuracy_) * count;
+    const double seen = std::pow(error / accuracy_, 0.5 / stages) * capacity;
     seen_caution_[segment] = std::max(1.0, kMargin * seen / demand_[segment]);
     easier = easier && seen_caution_[segment] <= kEasierBy * caution_[segment];
     if (fine) {
@@ -138,7 +141,6 @@ bool Discretisation::refine(double amplification, Backbone& backbone, double tol
     const double growth = too_long ? kMostGrowth : seen / demandOf(segment);
     caution_[segment] *= std::clamp(kMargin * growth, kMargin, kMostGrowth);  // NaN: unchanged
     // More than what it has was chosen for.
-    const double capacity = count * bendingOfAnElement(stages, accuracy_);
     caution_[segment] = std::max(caution_[segment], kMargin * capacity / demand_[segment]);
   }
   patience_ = wanting || !easier ? kPatience : patience_ - 1;

@@ -1,6 +1,7 @@
 #include "live_stiffness/rod/stability.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace live_stiffness {
 namespace {
@@ -40,24 +41,57 @@ bool isNeutral(double rotation, double softness, double error) {
   return !(rotation < neutral * softness);
 }
 
+// c of bending that counts against a force n, rad/(N m^2). What n does to a rod that turns by phi more is the form
+// (n . phi)(t . phi) - (n . t) |phi|^2, t the tangent: with t against n it is |n| |phi|^2 of bending alone, across it mixes
+// bending with torsion. With c that is largest against n, unless torsion is twice as soft as bending.
+double softnessToForce(const Matrix3& c) {
+  const double bending = std::max(c(0, 0), c(1, 1)), torsion = c(2, 2);
+  return torsion > 2.0 * bending ? 0.5 * torsion / std::sqrt(torsion / bending - 1.0) : bending;
+}
+
 }  // namespace
 
+// Of M(s, l) = C(min(s, l)) in the measure |n| ds the largest eigenvalue is at most the root of the sum of all squared,
+//   int int C(min(s, l))^2 |n(s)| |n(l)| ds dl = sum over parts p of the same within p, and 2 |n|_p int_{s < p} C^2 |n| ds.
+// Within a segment C and |n| are taken as linear (|n| is convex, so that is at least what it is).
 double loadNumber(const Chain& chain, const DeadLoads& loads, const Backbone& backbone) {
   Vector3 n = loads.baseForce(chain);
-  double softness = 0.0, load_number = 0.0;  // of all before, rad / (N m)
+  double softness = 0.0;  // C here, rad / (N m)
+  double softest = 0.0;   // of the whole robot to a moment about any axis, rad / (N m)
+  double before = 0.0;    // int of C^2 |n| up to here
+  double sum = 0.0;
+  const auto addRigid = [&](double load) {
+    const double own = load * softness * softness;
+    sum += load * (2.0 * before + own);
+    before += own;
+  };
   for (const Chain::Part& part : chain.parts) {
-    if (part.segment >= 0) {
-      const RestState& rest = backbone.rest[part.segment];
-      const double length = rest.stretch * part.length;
-      const double own = rest.c.bending_torsion.diagonal().maxCoeff() * length;
-      load_number += n.norm() * length * (softness + 0.5 * own);
-      softness += own;
-    } else {
-      load_number += n.norm() * part.length * softness;
-    }
+    const double n_start = n.norm();
     n -= part.mass * loads.gravity;
+    if (part.segment < 0) {
+      addRigid(0.5 * (n_start + n.norm()) * part.length);  // its mass acts at its middle
+      continue;
+    }
+    const RestState& rest = backbone.rest[part.segment];
+    const double length = rest.stretch * part.length;
+    const double own = softnessToForce(rest.c.bending_torsion) * length;
+    const double start = n_start * length, change = n.norm() * length - start;
+    double within = 0.0, passed = 0.0;
+    for (int i = 0; i < 3; ++i) {  // Gauss-Legendre, exact
+      constexpr double kNodes[] = {0.1127016653792583, 0.5, 0.8872983346207417};
+      constexpr double kWeights[] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+      const double x = kNodes[i], C = softness + x * own;
+      const double weighted = kWeights[i] * C * C * (start + x * change);
+      passed += weighted;
+      within += weighted * (1.0 - x) * (start + 0.5 * (1.0 + x) * change);
+    }
+    sum += 2.0 * (before * (start + 0.5 * change) + within);
+    before += passed;
+    softness += own;
+    softest += rest.c.bending_torsion.diagonal().maxCoeff() * length;
   }
-  return load_number + n.norm() * chain.tip_offset.norm() * softness + angular(loads.tip).norm() * softness / kPi;
+  addRigid(n.norm() * chain.tip_offset.norm());
+  return std::sqrt(sum) + angular(loads.tip).norm() * softest / kPi;
 }
 
 bool isTipStable(const Matrix6& C, double softness, double error) {

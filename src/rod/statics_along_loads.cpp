@@ -9,13 +9,13 @@
 namespace live_stiffness {
 namespace {
 
-// A brisk search takes loads with a load number up to this one, a step for each unit.
-constexpr double kBrisk = 6.0;
+// A brisk search takes loads with a load number up to kBrisk, a step for each kStep of it.
+constexpr double kBrisk = 2.5, kStep = 0.3;
 constexpr double kRough = 1e-2;            // accuracy that does on its way, of sweeps and columns
 constexpr double kFarFromBuckling = 4.0;   // amplification up to which it does: such errors grow by it
 // Of rods that the loads bend little sweeps converge surely. Under more load a base moment must be known to more digits
 // than they give, and Newton's method is not to be kept waiting (hard_cases_test).
-constexpr double kLittle = 3.0;            // load number
+constexpr double kLittle = 2.4;            // load number
 constexpr double kAwayFromBuckling = 8.0;  // amplification
 constexpr double kRoughElements = 1e-3;    // accuracy that does for elements on the way, of either search
 
@@ -125,10 +125,13 @@ bool StaticsSolver::findAlongLoads(const DeadLoads& loads, Backbone& backbone, S
     Finder finder(*this, loads, backbone, report, Finder::Pace::kBrisk);
     BranchSearch search(finder, length_);
     const Equilibrium unloaded{Vector3::Zero(), backbone.X_BT.p, {}, true};
-    if (search.runBriskly(loads, unloaded, std::max(1, static_cast<int>(std::ceil(load_number))))) end = BranchEnd::kLoading;
-    else placeFresh(DeadLoads(), backbone);
+    const int steps = std::max(1, static_cast<int>(std::ceil(load_number / kStep)));
+    if (search.runBriskly(loads, unloaded, steps)) end = BranchEnd::kLoading;
   }
   if (end != BranchEnd::kLoading) {
+    discretisation_.shorten();
+    discretisation_.choose(loads, backbone);
+    placeFresh(DeadLoads(), backbone);
     Finder finder(*this, loads, backbone, report, Finder::Pace::kCareful);
     BranchSearch search(finder, length_);
     end = search.run(loads);

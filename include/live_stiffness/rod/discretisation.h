@@ -17,6 +17,9 @@ class Discretisation {
   bool choose(const DeadLoads& loads, Backbone& backbone);
   bool chooseUnloaded(Backbone& backbone);
 
+  // Lets choose() take elements that bend less, if accuracy lets them bend so far: sweeps converge more surely on them.
+  void shorten() { most_ = kShort; }
+
   // Estimated relative error of a finished shape and its columns. cancellation: how much larger these are than the
   // compliance made of them.
   double truncation(double cancellation, const Backbone& backbone);
@@ -26,20 +29,27 @@ class Discretisation {
   // to take.
   bool refine(double amplification, Backbone& backbone, double tolerated = 0.0);
 
-  // Forgets what refine() has learnt.
-  void reset() { std::fill(caution_.begin(), caution_.end(), 1.0); }
+  // Forgets what refine() and shorten() have told.
+  void reset() {
+    std::fill(caution_.begin(), caution_.end(), 1.0);
+    most_ = kLong;
+  }
 
  private:
+  static constexpr double kLong = 1.8, kShort = 1.5;  // rad an element
+
   bool chooseForDemand(Backbone& backbone);
   double demandOf(size_t segment) const { return demand_[segment] * caution_[segment]; }
 
   const Chain& chain_;
   double accuracy_;
+  double most_ = kLong;  // bending of an element, rad, whatever the accuracy
   struct Choice {
     int stages;
     double cost;     // of an element, relative
     double bending;  // that an element carries at the accuracy, rad
   };
+  double bendingOf(const Choice& choice) const { return std::min(most_, choice.bending); }
   std::vector<Choice> choices_;
   std::vector<double> demand_;   // bending that counts for the number of elements, of each segment, rad; before caution
   double cancellation_ = 1.0;    // the last given
