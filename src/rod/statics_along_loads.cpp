@@ -15,7 +15,7 @@ constexpr double kRough = 1e-2;            // accuracy that does on its way, of 
 constexpr double kFarFromBuckling = 4.0;   // amplification up to which it does: such errors grow by it
 // Of rods that the loads bend little sweeps converge surely. Under more load a base moment must be known to more digits
 // than they give, and Newton's method is not to be kept waiting (hard_cases_test).
-constexpr double kLittle = 2.4;            // load number
+constexpr double kLittle = 1.2;            // load number
 constexpr double kAwayFromBuckling = 8.0;  // amplification
 constexpr double kRoughElements = 1e-3;    // accuracy that does for elements on the way, of either search
 
@@ -100,11 +100,12 @@ class StaticsSolver::Finder : public EquilibriumFinder {
   bool is_first_;
 };
 
-// Sweeps to the finest goal from a solution; takes it back if they fail.
+// Sweeps to the finest goal from a solution; takes it back if they fail, or go off to an equilibrium that is not stable.
 void StaticsSolver::polish(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
   const Vector3 before = base_moment_;
   StaticsReport finer;
-  if (quick(loads, Known::kColumns, kMaxSweeps, backbone, finer) && findTangent(loads, backbone, finer)) {
+  if (quick(loads, Known::kColumns, kMaxSweeps, backbone, finer) && findTangent(loads, backbone, finer) &&
+      isStable(loads, backbone, finer)) {
     report.residual = finer.residual;
     report.iteration = finer.iteration;
   } else {
