@@ -5,9 +5,10 @@
 
 namespace live_stiffness {
 
-// An upper bound of the ratio of load and buckling load of the straight robot: below 1 there is one equilibrium only. Of a
-// tip load on a uniform column 1.007 times the ratio itself, of its own weight 1.02 times; exact for a soft hinge. A tip
-// moment alone winds the rod up by half a turn before it has a choice. NaN for loads that are not numbers.
+// An upper bound of the ratio of load and buckling load of the straight robot, for the rest states in the backbone;
+// dimensionless. For a tip load on a uniform column 1.007 times the ratio itself, for its own weight less than 1.02 times;
+// exact for a soft hinge. A tip moment alone winds the rod up by half a turn before it has a choice. In a plane there is one
+// equilibrium only below 1 (docs/derivation.md, section 4). NaN for loads that are not numbers.
 double loadNumber(const Chain& chain, const DeadLoads& loads, const Backbone& backbone);
 
 // The tangent compliance C of the tip is positive definite, and clearly so: not neutral. softness: rotation of the softest
