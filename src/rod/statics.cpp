@@ -92,6 +92,12 @@ bool StaticsSolver::findEquilibrium(const DeadLoads& loads, Backbone& backbone, 
   while (true) {
     bool converged = quick(loads, known, kMaxSweeps, backbone, report);
     if (!converged) {
+      discretisation_.shorten();
+      const bool is_shorter = discretisation_.choose(loads, backbone);
+      placeFresh(loads, backbone);
+      converged = is_shorter && quick(loads, Known::kNothing, kMaxSweeps, backbone, report);
+    }
+    if (!converged) {
       placeFresh(loads, backbone);
       converged = newton(loads, backbone, 30, report);
     }
