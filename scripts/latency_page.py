@@ -10,7 +10,7 @@ ROWS, BUILD = sys.argv[1:3]
 TARGETS_US = {"TCPROS": 1000.0, "nodelet": 200.0}  # of the 99th percentile
 DRAWN, BARE_WAKE = " drawn", "bare wake"
 # median to max: received
-COLUMNS = "transport rate reached sent lost delivered delivered_p99 delivered_p999 median p99 p999 max solve error".split()
+COLUMNS = "transport rate reached sent lost delivered delivered_p99 delivered_p999 median p99 p999 max solve error stolen".split()
 
 
 def processor():
@@ -45,14 +45,17 @@ def main():
           "Load average when this was written: %.1f; with more than 1 or so, other work shared the processors, and the tails are its.\n"
           % (processor(), platform.release(), build_type, os.getloadavg()[0]))
     print("Just before, on this machine, with no node: a thread that waits is woken in " + "; ".join(
-        "%.0f us at %g Hz (p99 %.0f, p99.9 %.0f)" % (wake[0], rate, *wake[1:]) for rate, wake in sorted(wakes.items())) + ".\n")
+        "%.0f us at %g Hz (p99 %.0f, p99.9 %.0f; stolen %.1f ms/s)" % (wake[0], rate, *wake[1:])
+        for rate, wake in sorted(wakes.items())) +
+          ".\n*Stolen*: processor time that this machine wanted and its host gave to others, of all processors together "
+          "(`/proc/stat`). It is in\nthe tails, of the node as of the bare wakes.\n")
     print("| transport | asked | reached, Hz | sent | lost | delivered: median, us | p99, us | p99.9, us | received: median, us | p99, us | "
-          "p99.9, us | max, us | mean solve, us | delivered / solve | largest estimated error |\n" + "|---" * 15 + "|")
+          "p99.9, us | max, us | mean solve, us | delivered / solve | largest estimated error | stolen, ms/s |\n" + "|---" * 16 + "|")
     for row in rows:
-        print("| %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %.1f | %s |" % (
+        print("| %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %.1f | %s | %s |" % (
             row["transport"], asked(row), row["reached"], row["sent"], row["lost"], row["delivered"], row["delivered_p99"],
             row["delivered_p999"], row["median"], row["p99"], row["p999"], row["max"], row["solve"],
-            float(row["delivered"]) / float(row["solve"]), row["error"]))
+            float(row["delivered"]) / float(row["solve"]), row["error"], row["stolen"]))
     print("\n| target | measured | |\n|---|---|---|")
     for row in rows:
         limit, p99 = TARGETS_US[row["transport"].split()[0]], float(row["delivered_p99"])

@@ -11,6 +11,7 @@
 
 #include "latencies.h"
 #include "progress_bar.h"
+#include "stolen_time.h"
 
 namespace live_stiffness {
 
@@ -30,6 +31,7 @@ void measureBareWake(double rate, double seconds) {
     }
   });
   ProgressBar bar("bare wake, " + std::to_string(int(rate)) + " Hz", static_cast<long>(seconds));
+  const StolenTime stolen;
   const long count = static_cast<long>(rate * seconds);
   ros::WallTime next = ros::WallTime::now();
   for (long i = 0; ros::ok() && i <= count; ++i) {
@@ -50,7 +52,7 @@ void measureBareWake(double rate, double seconds) {
   changed.notify_one();
   waiting.join();
   const Latencies wake(std::move(taken));
-  std::printf("bare wake,%g,%.1f,%.1f,%.1f\n", rate, wake.at(0.5), wake.at(0.99), wake.at(0.999));
+  std::printf("bare wake,%g,%.1f,%.1f,%.1f,%.1f\n", rate, wake.at(0.5), wake.at(0.99), wake.at(0.999), stolen.rate());
   std::fflush(stdout);
 }
 

@@ -3,8 +3,8 @@
 
 namespace live_stiffness {
 
-// So many times a second (Hz), for so long (s). Prints, as CSV, "bare wake", the rate, and median, 99th and 99.9th percentile
-// in microseconds.
+// So many times a second (Hz), for so long (s). Prints, as CSV, "bare wake", the rate, median, 99th and 99.9th percentile in
+// microseconds, and processor time stolen, in milliseconds a second.
 void measureBareWake(double rate, double seconds);
 
 }  // namespace live_stiffness

@@ -22,6 +22,7 @@
 #include "bare_wake.h"
 #include "latencies.h"
 #include "progress_bar.h"
+#include "stolen_time.h"
 
 namespace {
 
@@ -85,6 +86,7 @@ class Stopwatch {
     solve_time_ = error_ = 0.0;
     live_stiffness::ProgressBar bar(transport + ", " + (rate > 0.0 ? std::to_string(int(rate)) + " Hz" : "as fast as it goes"),
                                     static_cast<long>(seconds));
+    const live_stiffness::StolenTime stolen;
     const ros::WallTime start = ros::WallTime::now();
     ros::WallTime next = start;
     long sent = 0;
@@ -100,7 +102,7 @@ class Stopwatch {
     }
     waitForAnswers(sent);
     bar.update(static_cast<long>(seconds));
-    print(transport, rate, sent, (ros::WallTime::now() - start).toSec());
+    print(transport, rate, sent, (ros::WallTime::now() - start).toSec(), stolen.rate());
   }
 
  private:
@@ -137,12 +139,12 @@ class Stopwatch {
     ++answered_;
   }
 
-  void print(const std::string& transport, double rate, long sent, double seconds) {
+  void print(const std::string& transport, double rate, long sent, double seconds, double stolen) {
     const live_stiffness::Latencies delivered(delivered_), received(received_);
-    std::printf("%s,%g,%.0f,%ld,%ld,%.1f,%.1f,%.1f,%.1f,%.1f,%.1f,%.1f,%.1f,%.1e\n", transport.c_str(), rate, sent / seconds,
+    std::printf("%s,%g,%.0f,%ld,%ld,%.1f,%.1f,%.1f,%.1f,%.1f,%.1f,%.1f,%.1f,%.1e,%.1f\n", transport.c_str(), rate, sent / seconds,
                 sent, sent - answered_.load(), delivered.at(0.5), delivered.at(0.99), delivered.at(0.999), received.at(0.5),
                 received.at(0.99), received.at(0.999), received.at(1.0), 1e6 * solve_time_ / std::max(1l, answered_.load()),
-                error_);
+                error_, stolen);
     std::fflush(stdout);
   }
 
