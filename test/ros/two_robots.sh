@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # two_robots.launch: each robot has topics and frames of its own, and what happens to one leaves the other alone; and
-# roswtf, who looks at all of it, finds nothing of ours wrong. BUILD_DIR SOURCE_DIR
+# roswtf, who looks at all of it, finds nothing of ours wrong; the running configuration of one can be dumped.
+# BUILD_DIR SOURCE_DIR
 source "$2/test/support/ros_script.sh"
 
 echo_one() { timeout 10 rostopic echo -n 1 "$1"; }
@@ -49,6 +50,23 @@ if command -v roswtf >/dev/null; then
   others=$(grep -E "^WARNING" "$work/roswtf.log" | grep -vE "subscriptions are unconnected|unexpectedly connected|[Rr]os ?[Dd]ep|ROS Dep" || true)
   [ -z "$others" ] || fail "roswtf: $others"
 fi
+
+echo "- the running configuration of one is changed, dumped, and that of a third"
+dynparam() { rosrun dynamic_reconfigure dynparam "$@"; }
+threshold_is() { dynparam get "$1" | grep -q "'update_threshold_pa': $2,"; }  # NODE PA
+dynparam set /left/stiffness_node update_threshold_pa 1234.5
+threshold_is /right/stiffness_node 1000.0 || fail "right has changed, too"
+dynparam dump /left/stiffness_node "$work/left.cfg" && grep -q "update_threshold_pa: 1234.5" "$work/left.cfg" || fail "dynparam dump"
+rosparam dump "$work/left.yaml" /left/stiffness_node
+rosparam load "$work/left.yaml" /third/stiffness_node
+"$programs/stiffness_node" __ns:=/third >"$work/third.log" 2>&1 &
+third=$!
+pids+=("$third")
+within 20 "third is not there" rosservice info /third/stiffness_node/set_parameters
+threshold_is /third/stiffness_node 1234.5 || fail "third has not what was dumped"
+rosparam dump "$work/third.yaml" /third/stiffness_node
+diff "$work/left.yaml" "$work/third.yaml" || fail "third is not configured as left is"
+kill -INT $third; wait $third || fail "third: exit status $?"
 
 echo "- what happens to one leaves the other alone"
 pid=$(rosnode info /left/rig_simulator | sed -n 's/^Pid: //p')
