@@ -82,11 +82,12 @@ StiffnessNode::~StiffnessNode() {
 void StiffnessNode::onPressures(const Pressures& pressures, const ros::Time& stamp) {
   pressure_stamp_ = stamp;
   input_fault_.clear();
-  registration_.addPressures(pressures, stamp);
-  if (is_paused_) return;
-  react(estimator_->setPressures(pressures, stamp.toSec()));
-  if (estimator_->estimate() != nullptr && estimator_->status().ok())
-    history_.add({stamp.toSec(), pressures, estimator_->estimate()->solution.X_BT});
+  if (!is_paused_) {
+    react(estimator_->setPressures(pressures, stamp.toSec()));
+    if (estimator_->estimate() != nullptr && estimator_->status().ok())
+      history_.add({stamp.toSec(), pressures, estimator_->estimate()->solution.X_BT});
+  }
+  registration_.addPressures(pressures, stamp);  // last, so that the estimate does not wait for it
 }
 
 void StiffnessNode::react(StiffnessEstimator::Outcome outcome) {
