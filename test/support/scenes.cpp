@@ -18,7 +18,7 @@ Scene weightlessPaperScene(int segments) {
 Scene awkwardScene() {
   Scene scene = paperScene(2);
   std::get<Link>(scene.chain[1]).mass = 0.007;
-  scene.chain.push_back(Link{0.009, 0.004});
+  scene.chain.emplace_back(Link{0.009, 0.004});
   scene.tip_mass = 0.006;
   scene.tip_offset = Vector3(0.004, -0.007, 0.011);
   scene.gravity = Vector3(2.5, -3.5, -8.0);
