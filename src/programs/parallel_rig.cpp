@@ -79,7 +79,7 @@ int main(int argc, char** argv) {
   const NodeProcess process;
   try {
     ParallelRig rig(handle, private_handle);
-    ros::spin();
+    process.spin();
   } catch (const std::exception& error) {
     ROS_FATAL("%s", error.what());
     return 2;

@@ -95,6 +95,6 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "stiffness_monitor");
   Monitor monitor{ros::NodeHandle()};
   const live_stiffness::NodeProcess process;
-  ros::spin();
+  process.spin();
   return 0;
 }

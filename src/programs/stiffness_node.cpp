@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
   const live_stiffness::NodeProcess process;
   try {
     live_stiffness::StiffnessNode node(handle, private_handle);
-    ros::spin();
+    process.spin();
   } catch (const std::exception& error) {
     ROS_FATAL("%s", error.what());
     return 2;

@@ -15,8 +15,12 @@ class NodeProcess {
   // After ros::init() and the first NodeHandle, which installs roscpp's own handler of SIGINT.
   NodeProcess() { std::signal(SIGTERM, [](int) { ros::requestShutdown(); }); }
 
- private:
-  MasterWatch master_;
+  // Until it is told to stop. Call it when all is advertised: what the first look at the master does not find there, the
+  // next master is not told if this one dies within the second.
+  void spin() const {
+    const MasterWatch watch;
+    ros::spin();
+  }
 };
 
 }  // namespace live_stiffness
