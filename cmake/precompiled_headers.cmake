@@ -1,18 +1,24 @@
 # Headers of others, parsed once for many sources: a build would spend most of its time there. Every source still includes
 # what it uses, and builds without (-DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON, as scripts/test --debug does).
 
-# add_precompiled_headers(NAME HEADER...): an object library NAME with them, whose flags are those of the targets that use it.
+# add_precompiled_headers(NAME HEADER...): an object library ${PROJECT_NAME}_NAME with them, whose flags have to be those of
+# the targets that use it.
 function(add_precompiled_headers name)
-  set(empty ${PROJECT_BINARY_DIR}/${name}.cpp)
+  set(target ${PROJECT_NAME}_${name})
+  set(empty ${PROJECT_BINARY_DIR}/${target}.cpp)
   file(GENERATE OUTPUT ${empty} CONTENT "")
-  add_library(${name} OBJECT ${empty})
-  target_precompile_headers(${name} PRIVATE ${ARGN})
+  add_library(${target} OBJECT ${empty})
+  target_precompile_headers(${target} PRIVATE ${ARGN})
+  target_include_directories(${target} SYSTEM PRIVATE ${EIGEN3_INCLUDE_DIRS} ${catkin_INCLUDE_DIRS})
+  if(catkin_EXPORTED_TARGETS)
+    add_dependencies(${target} ${catkin_EXPORTED_TARGETS})
+  endif()
 endfunction()
 
 # use_precompiled_headers(NAME TARGET...)
 function(use_precompiled_headers name)
   foreach(target ${ARGN})
-    target_precompile_headers(${target} REUSE_FROM ${name})
+    target_precompile_headers(${target} REUSE_FROM ${PROJECT_NAME}_${name})
   endforeach()
 endfunction()
 
