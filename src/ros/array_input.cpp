@@ -1,5 +1,7 @@
 #include "live_stiffness/ros/array_input.h"
 
+#include <ros/master.h>
+
 namespace live_stiffness {
 
 using diagnostic_msgs::DiagnosticStatus;
@@ -25,7 +27,8 @@ void ArrayInput::subscribe() {
 
 void ArrayInput::tend() {
   watch_.notice(ros::Time::now());
-  if (subscribe_ && isStale() && subscriber_.getNumPublishers() == 0 && watch_.mayRetry()) subscribe();
+  if (subscribe_ && isStale() && subscriber_.getNumPublishers() == 0 && watch_.mayRetry() && ros::master::check())
+    subscribe();  // which without a master would wait for one
 }
 
 void ArrayInput::take(const Reading<Eigen::VectorXd>& reading, const std::string& publisher) {

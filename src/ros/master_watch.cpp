@@ -2,42 +2,25 @@
 
 #include <ros/console.h>
 #include <ros/init.h>
-#include <ros/network.h>
-#include <ros/param.h>
-#include <xmlrpcpp/XmlRpcClient.h>
 #include <xmlrpcpp/XmlRpcException.h>
 
 #include <chrono>
+
+#include "live_stiffness/ros/node_graph.h"
 
 namespace live_stiffness {
 namespace {
 
 using XmlRpc::XmlRpcValue;
 
-// The master's API: false if it cannot be reached, or refuses.
-template <class... Arguments>
-bool ask(const std::string& method, XmlRpcValue& answer, const Arguments&... arguments) {
-  XmlRpcValue request, response;
-  int i = 0;
-  request[i++] = ros::this_node::getName();
-  for (const std::string& argument : {std::string(arguments)...}) request[i++] = argument;
-  return ros::master::execute(method, request, response, answer, false);
-}
+// Every process of roscpp has it from start to end, and only it tells a master so.
+std::string ownService() { return ros::this_node::getName() + "/get_loggers"; }
 
-bool ask(const std::string& method, XmlRpcValue& answer) {
-  XmlRpcValue request, response;
-  request[0] = ros::this_node::getName();
-  return ros::master::execute(method, request, response, answer, false);
-}
-
-// Of pairs [name, [nodes]], as getSystemState gives them: the names that this node is among.
 std::map<std::string, std::string> ofThisNode(XmlRpcValue& pairs) {
-  std::map<std::string, std::string> names;
-  for (int i = 0; i < pairs.size(); ++i)
-    for (int k = 0; k < pairs[i][1].size(); ++k)
-      if (static_cast<std::string>(pairs[i][1][k]) == ros::this_node::getName())
-        names[static_cast<std::string>(pairs[i][0])] = "*";
-  return names;
+  const auto names = byNode(pairs);
+  std::map<std::string, std::string> own;
+  for (auto [name, end] = names.equal_range(ros::this_node::getName()); name != end; ++name) own[name->second] = "*";
+  return own;
 }
 
 }  // namespace
@@ -65,8 +48,7 @@ void MasterWatch::run() {
 }
 
 void MasterWatch::look() {
-  XmlRpcValue answer;
-  XmlRpcValue pid;
+  XmlRpcValue pid, answer;
   if (!ask("getPid", pid)) {
     if (!is_away_ && !ros::isShuttingDown())
       ROS_WARN("the master at %s does not answer: what is connected goes on, but nodes that start now find nobody",
@@ -74,26 +56,30 @@ void MasterWatch::look() {
     is_away_ = true;
     return;
   }
-  const bool is_known = ask("lookupNode", answer, ros::this_node::getName());
+  // Not lookupNode: what roscpp goes on to tell a new master, or another node tells it of this one, would make it known.
+  // Not the process number alone: in a container every master may have the same.
+  const bool is_known = ask("lookupService", answer, ownService());
   if (ros::isShuttingDown()) return;  // asked last: shutting down is why it may not be known
-  // In a container every master may have the same.
-  const bool is_another = pid_ != 0 && pid_ != static_cast<int>(pid);
-  if ((is_another || !is_known) && parameters_.valid() && !ros::param::has(namespace_))
-    ros::param::set(namespace_, parameters_);
-  if (!is_known && !uri_.empty()) registerAnew();
-  else if (is_known) remember();
+  if (is_known && (pid_ == 0 || pid_ == static_cast<int>(pid))) {
+    remember();
+  } else if (!uri_.empty()) {
+    ROS_WARN("the master was restarted: registering there anew");
+    if (parameters_.valid() && !ask("getParam", answer, namespace_)) ask("setParam", answer, namespace_, parameters_);
+    registerAnew();
+  }
   pid_ = static_cast<int>(pid);
   is_away_ = false;
 }
 
 // What the master knows of this process.
-bool MasterWatch::remember() {
+void MasterWatch::remember() {
   XmlRpcValue uri, state, types, api;
   if (!ask("lookupNode", uri, ros::this_node::getName()) || !ask("getSystemState", state) ||
       !ask("getTopicTypes", types))
-    return false;
+    return;
   std::map<std::string, std::string> publications = ofThisNode(state[0]), subscriptions = ofThisNode(state[1]),
                                      services = ofThisNode(state[2]);
+  if (services.count(ownService()) == 0) return;  // another master already
   for (int i = 0; i < types.size(); ++i)
     for (auto* topics : {&publications, &subscriptions}) {
       const auto topic = topics->find(static_cast<std::string>(types[i][0]));
@@ -105,32 +91,57 @@ bool MasterWatch::remember() {
     else if (ask("lookupService", api, name)) service_uri = static_cast<std::string>(api);
   }
   uri_ = static_cast<std::string>(uri);
+  rememberPublishers(state[0]);
   publications_ = std::move(publications);
   subscriptions_ = std::move(subscriptions);
   services_ = std::move(services);
   XmlRpcValue parameters;
-  if (ros::param::get(namespace_, parameters)) parameters_ = parameters;
-  return true;
+  if (ask("getParam", parameters, namespace_)) parameters_ = parameters;
+}
+
+// Names of the publishers that this process is connected to. publications: pairs of getSystemState.
+void MasterWatch::rememberPublishers(XmlRpcValue& publications) {
+  const auto topics = byNode(publications);
+  std::map<std::string, std::string> publishers;
+  for (const auto& [topic, uri] : connectedPublishers(uri_)) {
+    const auto known = publishers_.find(uri);
+    if (known != publishers_.end()) publishers.insert(*known);
+    for (auto name = topics.begin(); name != topics.end() && publishers.count(uri) == 0; ++name) {
+      XmlRpcValue api;
+      if (name->second == topic && ask("lookupNode", api, name->first) && static_cast<std::string>(api) == uri)
+        publishers[uri] = name->first;
+    }
+  }
+  publishers_ = std::move(publishers);
+}
+
+// Those that do not register anew themselves.
+void MasterWatch::registerPublishers() {
+  for (const auto& [topic, uri] : connectedPublishers(uri_)) {
+    const auto name = publishers_.find(uri);
+    const auto type = subscriptions_.find(topic);
+    if (name == publishers_.end() || type == subscriptions_.end() || !isAlive(uri)) continue;
+    // The master would stop one that has begun again under the same name.
+    XmlRpcValue known, answer;
+    if (ask("lookupNode", known, name->second) && static_cast<std::string>(known) != uri) continue;
+    askAs(name->second, "registerPublisher", answer, topic, type->second, uri);
+  }
 }
 
 void MasterWatch::registerAnew() {
-  ROS_WARN("the master was restarted: registering there anew");
   XmlRpcValue answer;
+  registerPublishers();
   for (const auto& [service, uri] : services_) ask("registerService", answer, service, uri, uri_);
   for (const auto& [topic, type] : publications_) ask("registerPublisher", answer, topic, type, uri_);
   for (const auto& [topic, type] : subscriptions_) {
     if (!ask("registerSubscriber", answer, topic, type, uri_) || answer.size() == 0) continue;
-    // Who publishes already: told to this process as the master would. Not of nobody, which would cut connections to
-    // publishers that have not registered anew.
+    // Who publishes already: told to this process as the master would. Not of nobody, which would cut those that could
+    // not be registered.
     XmlRpcValue request, response;
     request[0] = std::string("/master");
     request[1] = topic;
     request[2] = answer;
-    std::string host;
-    uint32_t port = 0;
-    if (!ros::network::splitURI(uri_, host, port)) continue;
-    XmlRpc::XmlRpcClient self(host.c_str(), static_cast<int>(port), "/");
-    self.execute("publisherUpdate", request, response);
+    askNode(uri_, "publisherUpdate", request, response);
   }
 }
 

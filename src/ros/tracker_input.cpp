@@ -1,5 +1,7 @@
 #include "live_stiffness/ros/tracker_input.h"
 
+#include <ros/master.h>
+
 #include <algorithm>
 
 #include "live_stiffness/ros/any_subscriber.h"
@@ -27,7 +29,7 @@ TrackerInput::TrackerInput(const ros::NodeHandle& node, const NodeParameters& pa
 void TrackerInput::tend() {
   watch_.notice(ros::Time::now());
   if (!parameters_.tracker_tf_frame.empty() || freshTip() || subscriber_.getNumPublishers() > 0) return;
-  if (!watch_.mayRetry()) return;
+  if (!watch_.mayRetry() || !ros::master::check()) return;  // without a master it would wait for one
   subscriber_.shutdown();  // first, else the new one shares its connections and with them the type
   subscribe();
 }

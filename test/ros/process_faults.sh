@@ -17,6 +17,7 @@ start_rig() {  # NAME
 }
 scene=$source/config/scenes/paper_one_segment.yaml
 is_fresh() { timeout 10 rostopic echo -n 1 /stiffness_node/estimate/stale | grep -q False; }
+answers() { rosservice call /stiffness_node/compliance_at '{segment: 0, fraction: 1.0}' | grep -q 'success: True'; }
 is_stale() { timeout 10 rostopic echo -n 1 /stiffness_node/estimate/stale | grep -q True; }
 
 start_master
@@ -60,14 +61,25 @@ start_master
 begin=$(now)
 within 30 "no fresh estimate by way of the new master" is_fresh
 echo "  found after $(since "$begin")"
-within 20 "services are not registered anew" \
-  sh -c "rosservice call /stiffness_node/compliance_at '{segment: 0, fraction: 1.0}' | grep -q 'success: True'"
+within 20 "services are not registered anew" answers
 within 20 "parameters are not there anew" sh -c "rosparam get /stiffness_node/scene_file | grep -q paper_one_segment"
 within 20 "the publisher is not shown by rosnode info" sh -c "rosnode info /stiffness_node | grep -q '/rig_b'"
 kill -9 $rig
 start_rig rig_c
 within 20 "a publisher that starts under the new master is not heard" is_fresh
 kill -0 $node || fail "the node died"
+
+echo "- the master is killed and comes back while nobody publishes"
+kill -INT $rig; wait $rig || true
+within 20 "pressures of a publisher that ended are not stale" is_stale
+kill -9 $master; wait $master 2>/dev/null || true
+within 20 "the node does not say that the master is away again" \
+  sh -c "[ \$(grep -c 'does not answer' '$work/node.log') = 2 ]"
+start_master
+within 30 "no estimate by way of the new master" is_stale
+within 20 "services are not registered anew" answers
+start_rig rig_c
+within 20 "a publisher that starts under the new master is not heard" is_fresh
 
 echo "- the same with a nodelet"
 kill $node; wait $node || true
@@ -80,13 +92,16 @@ load=$!
 pids+=("$manager" "$load")
 within 30 "no fresh estimate of the nodelet" is_fresh
 # Only what it has told the master, and has seen there, can it tell the next one: first when it starts.
-answers() { rosservice call /stiffness_node/compliance_at '{segment: 0, fraction: 1.0}' | grep -q 'success: True'; }
 within 20 "the nodelet does not answer" answers
 kill -9 $master; wait $master 2>/dev/null || true
 within 20 "the nodelet does not say that the master is away" grep -q "does not answer" "$work/manager.log"
 start_master
 within 30 "no fresh estimate of the nodelet by way of the new master" is_fresh
 within 20 "the nodelet's services are not registered anew" answers
+# Longer than the 4 s after which a bond that is not heard is broken and the nodelet unloaded, at 40 Hz.
+within 60 "the nodelet does not go on" \
+  sh -c "[ \$(timeout 30 rostopic echo -n 300 /stiffness_node/estimate/stale | grep -c False) = 300 ]"
+kill -0 $load || fail "the bond between the nodelet's loader and the manager is broken"
 within 20 "the nodelet's parameters are not there anew" \
   sh -c "rosparam get /stiffness_node/scene_file | grep -q paper_one_segment"
 kill -INT $load; wait $load || true

@@ -3,9 +3,10 @@
 //
 // Connections between nodes outlive the master: data go on. But a new master knows nobody, so that nodes that start
 // afterwards find nobody, and its parameter server is empty. This remembers what the old one knew of this process
-// (publications, subscriptions, services, private parameters) and tells the new one. Nodes of others that do not do so
-// stay connected, and are found again when they are restarted. Several in one process, as of nodelets, do no harm: each
-// brings its own parameters, and what one has registered the others find there.
+// (publications, subscriptions, services, private parameters) and tells the new one; and of nodes that do not do so, what
+// this process hears from them. Without that the master would name only those publishers that it knows, and roscpp would
+// cut all others: of /tf, or of a nodelet's bond, whose end unloads it. Several in one process, as of nodelets, do no
+// harm: each brings its own parameters, and to register twice is to register once.
 
 #include <ros/master.h>
 #include <ros/this_node.h>
@@ -31,12 +32,15 @@ class MasterWatch {
  private:
   void run();
   void look();
-  bool remember();
+  void remember();
+  void rememberPublishers(XmlRpc::XmlRpcValue& publications);
   void registerAnew();
+  void registerPublishers();
 
   std::string namespace_;
-  int pid_ = 0;  // of the master; 0: not seen yet
+  int pid_ = 0;                                                   // of the master; 0: not seen yet
   std::string uri_;                                               // of this process
+  std::map<std::string, std::string> publishers_;                 // that it is connected to: name by URI
   std::map<std::string, std::string> publications_, subscriptions_;  // type by topic
   std::map<std::string, std::string> services_;                   // URI by service
   XmlRpc::XmlRpcValue parameters_;
