@@ -10,6 +10,7 @@
 
 #include "live_stiffness/estimation/motion_history.h"
 #include "live_stiffness/estimation/tip_force.h"
+#include "live_stiffness/ros/bag_message.h"
 #include "live_stiffness/ros/output_bag.h"
 
 namespace live_stiffness {
@@ -77,15 +78,17 @@ class Replay {
   void take(const rosbag::MessageInstance& message) {
     recorded_ = message.getTime();
     const std::string topic = withoutSlash(message.getTopic());
+    std::string fault;
     if (topic == withoutSlash(options_.format.wrench_topic)) {
-      if (const auto wrench = message.instantiate<geometry_msgs::WrenchStamped>()) onWrench(*wrench);
-      else wrenches_.reject("is no geometry_msgs/WrenchStamped");
+      if (const auto wrench = readMessage<geometry_msgs::WrenchStamped>(message, fault)) onWrench(*wrench);
+      else wrenches_.reject(fault);
       return;
     }
     const bool is_pressure = topic == withoutSlash(options_.format.pressure_topic);
     if (!is_pressure && topic != withoutSlash(options_.format.pose_topic)) return;
-    const auto any = message.instantiate<topic_tools::ShapeShifter>();
-    if (is_pressure) onPressures(readPressures(*any, options_.format.pressures));
+    const auto any = readMessage<topic_tools::ShapeShifter>(message, fault);
+    if (!any) (is_pressure ? pressures_ : poses_).reject(fault);
+    else if (is_pressure) onPressures(readPressures(*any, options_.format.pressures));
     else onPose(readPose(*any, options_.format.position_unit));
   }
 

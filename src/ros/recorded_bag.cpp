@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "live_stiffness/checks.h"
+#include "live_stiffness/ros/bag_message.h"
 
 namespace live_stiffness {
 namespace {
@@ -21,6 +22,10 @@ struct Tracks {
   std::string fault;  // of the first one
 };
 
+void leaveOut(const std::string& fault, Tracks& tracks) {
+  if (tracks.unreadable++ == 0) tracks.fault = fault;
+}
+
 template <class Value, class Result>
 void keep(const Reading<Value>& reading, const ros::Time& recorded, const Result& result,
           std::map<double, Result>& track, Tracks& tracks) {
@@ -28,7 +33,7 @@ void keep(const Reading<Value>& reading, const ros::Time& recorded, const Result
     track[(reading.stamp.isZero() ? recorded : reading.stamp).toSec()] = result;
     return;
   }
-  if (tracks.unreadable++ == 0) tracks.fault = reading.fault;
+  leaveOut(reading.fault, tracks);
 }
 
 template <class Value>
@@ -43,9 +48,13 @@ Tracks readTracks(const std::string& path, const BagFormat& format) {
   rosbag::Bag bag(path, rosbag::bagmode::Read);
   for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
     const std::string topic = withoutSlash(message.getTopic());
+    std::string fault;
     if (topic == withoutSlash(format.wrench_topic)) {
-      const auto wrench = message.instantiate<geometry_msgs::WrenchStamped>();
-      if (!wrench) continue;
+      const auto wrench = readMessage<geometry_msgs::WrenchStamped>(message, fault);
+      if (!wrench) {
+        leaveOut(fault, tracks);
+        continue;
+      }
       const FrameNames own{withoutSlash(wrench->header.frame_id), ""};  // a recording keeps the sensor's axes
       const Reading<Wrench> reading = readWrench(*wrench, own, nullptr);
       keep(reading, message.getTime(), reading.value, tracks.wrenches, tracks);
@@ -53,9 +62,10 @@ Tracks readTracks(const std::string& path, const BagFormat& format) {
     }
     const bool is_pressure = topic == withoutSlash(format.pressure_topic);
     if (!is_pressure && topic != withoutSlash(format.pose_topic)) continue;
-    const auto any = message.instantiate<topic_tools::ShapeShifter>();
-    if (!any) continue;
-    if (is_pressure) {
+    const auto any = readMessage<topic_tools::ShapeShifter>(message, fault);
+    if (!any) {
+      leaveOut(fault, tracks);
+    } else if (is_pressure) {
       const Reading<Pressures> reading = readPressures(*any, format.pressures);
       keep(reading, message.getTime(), reading.value, tracks.pressures, tracks);
     } else {

@@ -11,6 +11,7 @@
 
 #include "live_stiffness/checks.h"
 #include "live_stiffness/estimation/scene_creep.h"
+#include "support/damaged_bag.h"
 #include "support/matrix_near.h"
 #include "support/scenes.h"
 
@@ -206,6 +207,19 @@ TEST_F(BagReplay, RefusesBagsThatCannotBe) {
   EXPECT_THROW(replayBag(in_, "/nowhere/out.bag", model_.scene(), {}, options_), ConfigurationError);
   std::ofstream(in_) << "no bag";
   EXPECT_THROW(replayBag(in_, out_, model_.scene(), {}, options_), ConfigurationError);
+}
+
+// rosbag would read on behind the end of what it has.
+TEST_F(BagReplay, LeavesOutAMessageThatIsDamaged) {
+  options_.estimator.update_threshold = 0.0;
+  for (int i = 0; i < 80; ++i) record(i / kRate);
+  bag_.close();
+  const double time = 40 / kRate;
+  ASSERT_TRUE(damageSize(in_, toPressures(at(time), stamp(time)), 1u << 30));
+  const ReplayReport report = replay();
+  EXPECT_EQ(report.updates, 79);
+  EXPECT_EQ(report.pressures.unusable, 1);
+  EXPECT_NE(report.pressures.first_fault.find("1073741824 bytes"), std::string::npos) << report.pressures.first_fault;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "live_stiffness/checks.h"
+#include "support/damaged_bag.h"
 #include "support/matrix_near.h"
 
 namespace live_stiffness {
@@ -100,6 +101,20 @@ TEST_F(RecordedBag, LeavesOutWhatCannotBeReadAndSaysSo) {
   ASSERT_EQ(recording.warnings.size(), 2u);
   EXPECT_NE(recording.warnings[0].find("2 messages left out"), std::string::npos) << recording.warnings[0];
   EXPECT_NE(recording.warnings[1].find("1 poses left out"), std::string::npos) << recording.warnings[1];
+}
+
+TEST_F(RecordedBag, LeavesOutAMessageThatIsDamaged) {
+  for (int i = 0; i < 3; ++i) {
+    pressures(10.0 + i, 1e4);
+    pose(10.5 + i, 0.1 * i);
+  }
+  bag_.close();
+  const ros::Time stamp(11.5);
+  ASSERT_TRUE(damageSize(path_, toPoseStamped({Matrix3::Identity(), Vector3(0.1, 0.0, 0.0)}, stamp, "aurora"), 1u << 24));
+  const Recording recording = loadRecordedBag(path_);
+  EXPECT_EQ(recording.samples.size(), 2u);
+  ASSERT_EQ(recording.warnings.size(), 1u);
+  EXPECT_NE(recording.warnings[0].find("16777216 bytes: must be at most"), std::string::npos) << recording.warnings[0];
 }
 
 TEST_F(RecordedBag, WithoutASampleIsAConfigurationError) {
