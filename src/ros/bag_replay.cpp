@@ -11,6 +11,7 @@
 #include "live_stiffness/estimation/motion_history.h"
 #include "live_stiffness/estimation/tip_force.h"
 #include "live_stiffness/ros/bag_message.h"
+#include "live_stiffness/ros/bag_structure.h"
 #include "live_stiffness/ros/output_bag.h"
 
 namespace live_stiffness {
@@ -209,6 +210,7 @@ ReplayReport replayBag(const std::string& bag, const std::string& out, const Sce
     throw ConfigurationError("bag " + out, {"is the one to be read: give another to be written"});
   ReplayReport report;
   try {
+    checkBagStructure(bag);
     rosbag::Bag in(bag, rosbag::bagmode::Read);
     const std::string names[] = {withoutSlash(options.format.pressure_topic), withoutSlash(options.format.pose_topic),
                                  withoutSlash(options.format.wrench_topic)};

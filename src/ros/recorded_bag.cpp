@@ -9,6 +9,7 @@
 
 #include "live_stiffness/checks.h"
 #include "live_stiffness/ros/bag_message.h"
+#include "live_stiffness/ros/bag_structure.h"
 
 namespace live_stiffness {
 namespace {
@@ -45,6 +46,7 @@ std::optional<Value> newest(const std::map<double, Value>& track, double time) {
 
 Tracks readTracks(const std::string& path, const BagFormat& format) {
   Tracks tracks;
+  checkBagStructure(path);
   rosbag::Bag bag(path, rosbag::bagmode::Read);
   for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
     const std::string topic = withoutSlash(message.getTopic());
@@ -67,7 +69,8 @@ Tracks readTracks(const std::string& path, const BagFormat& format) {
       leaveOut(fault, tracks);
     } else if (is_pressure) {
       const Reading<Pressures> reading = readPressures(*any, format.pressures);
-      keep(reading, message.getTime(), reading.value, tracks.pressures, tracks);
+      if (reading.ok() && reading.value.size() == 0) leaveOut("no pressures in the message", tracks);
+      else keep(reading, message.getTime(), reading.value, tracks.pressures, tracks);
     } else {
       const Reading<TrackedPose> reading = readPose(*any, format.position_unit);
       keep(reading, message.getTime(), reading.value.pose, tracks.poses, tracks);

@@ -1,10 +1,13 @@
 #include "live_stiffness/ros/recorded_bag.h"
 
+#include <console_bridge/console.h>
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
 
 #include <cmath>
 #include <cstdio>
+#include <fstream>
+#include <iterator>
 
 #include "live_stiffness/checks.h"
 #include "support/damaged_bag.h"
@@ -110,11 +113,46 @@ TEST_F(RecordedBag, LeavesOutAMessageThatIsDamaged) {
   }
   bag_.close();
   const ros::Time stamp(11.5);
-  ASSERT_TRUE(damageSize(path_, toPoseStamped({Matrix3::Identity(), Vector3(0.1, 0.0, 0.0)}, stamp, "aurora"), 1u << 24));
+  const Pose X_AS{Matrix3::Identity(), Vector3(0.1, 0.0, 0.0)};
+  ASSERT_TRUE(damageSize(path_, toPoseStamped(X_AS, stamp, "aurora"), 1u << 24));
   const Recording recording = loadRecordedBag(path_);
   EXPECT_EQ(recording.samples.size(), 2u);
   ASSERT_EQ(recording.warnings.size(), 1u);
   EXPECT_NE(recording.warnings[0].find("16777216 bytes: must be at most"), std::string::npos) << recording.warnings[0];
+}
+
+// Read, or refused with a reason, whichever byte is wrong and wherever the file ends.
+TEST_F(RecordedBag, IsReadOrRefusedHoweverItIsDamaged) {
+  for (int i = 0; i < 3; ++i) {
+    pressures(10.0 + i, 1e4);
+    pose(10.5 + i, 0.1 * i);
+  }
+  bag_.close();
+  std::ifstream file(path_, std::ios::binary);
+  const std::string whole{std::istreambuf_iterator<char>(file), {}};
+  int read = 0, refused = 0;
+  const auto load = [&](const std::string& bytes) {
+    std::ofstream(path_, std::ios::binary) << bytes;
+    try {
+      loadRecordedBag(path_);
+      ++read;
+    } catch (const ConfigurationError&) {
+      ++refused;
+    }
+  };
+  console_bridge::noOutputHandler();  // of rosbag, a line each
+  for (size_t at = 0; at < whole.size(); ++at) {
+    if (at > 0 && whole[at] == ' ' && whole[at - 1] == ' ') continue;  // what fills up the bag's header
+    std::string damaged = whole;
+    damaged[at] ^= "\x01\x80\xff"[at % 3];
+    load(damaged);
+  }
+  EXPECT_GT(read, 0);
+  EXPECT_GT(refused, 0);
+  read = 0;
+  for (size_t size = 0; size < whole.size(); size += 29) load(whole.substr(0, size));
+  EXPECT_EQ(read, 0);
+  console_bridge::restorePreviousOutputHandler();
 }
 
 TEST_F(RecordedBag, WithoutASampleIsAConfigurationError) {

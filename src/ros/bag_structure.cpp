@@ -1,0 +1,135 @@
+#include "live_stiffness/ros/bag_structure.h"
+
+#include <boost/interprocess/file_mapping.hpp>
+#include <boost/interprocess/mapped_region.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string_view>
+
+#include "live_stiffness/checks.h"
+
+namespace live_stiffness {
+namespace {
+
+constexpr std::string_view kVersion = "#ROSBAG V2.0\n";
+constexpr char kBagHeader = 3, kIndex = 4, kChunk = 5, kChunkInfo = 6;  // op codes of records
+constexpr size_t kEntry = 12, kTime = 8;                               // bytes of an entry of the index: time, offset
+
+struct Damage {
+  const char* at;  // where it was noticed
+};
+
+uint32_t numberAt(std::string_view bytes, size_t offset) {
+  uint32_t number;  // little-endian, as ROS everywhere
+  if (bytes.size() < sizeof number || offset > bytes.size() - sizeof number) throw Damage{bytes.data()};
+  std::memcpy(&number, bytes.data() + offset, sizeof number);
+  return number;
+}
+
+// Takes a length, and as many bytes, from the front.
+std::string_view takeBlock(std::string_view& bytes) {
+  const uint32_t length = numberAt(bytes, 0);
+  bytes.remove_prefix(sizeof length);
+  if (length > bytes.size()) throw Damage{bytes.data()};
+  const std::string_view block = bytes.substr(0, length);
+  bytes.remove_prefix(length);
+  return block;
+}
+
+// Of a record's header, which is blocks of "name=value".
+std::string_view fieldOf(std::string_view header, std::string_view name) {
+  const char* begin = header.data();
+  while (!header.empty()) {
+    const std::string_view field = takeBlock(header);
+    if (field.size() > name.size() && field[name.size()] == '=' && field.substr(0, name.size()) == name)
+      return field.substr(name.size() + 1);
+  }
+  throw Damage{begin};
+}
+
+// Every message that the index names has its header within the chunk. chunk: empty if it is compressed, which has sums,
+// or encrypted.
+void checkIndex(std::string_view entries, std::string_view chunk, uint32_t chunk_size) {
+  for (size_t entry = 0; entry + kEntry <= entries.size(); entry += kEntry) {
+    const uint32_t offset = numberAt(entries, entry + kTime);
+    if (offset >= chunk_size) throw Damage{entries.data() + entry};
+    if (chunk.empty()) continue;
+    std::string_view message = chunk.substr(offset);
+    takeBlock(message);
+    numberAt(message, 0);
+  }
+}
+
+uint32_t numberOf(std::string_view header, std::string_view name) { return numberAt(fieldOf(header, name), 0); }
+
+uint64_t placeOf(std::string_view header, std::string_view name) {
+  const std::string_view field = fieldOf(header, name);
+  return numberAt(field, 0) | static_cast<uint64_t>(numberAt(field, 4)) << 32;
+}
+
+// file: from the first byte of the bag.
+void checkRecords(std::string_view file) {
+  std::string_view bytes = file.substr(kVersion.size()), chunk;
+  uint32_t chunk_size = 0;
+  std::set<uint64_t> records, chunks;                        // where they begin
+  std::map<uint64_t, const char*> said_records, said_chunks;  // where the bag says that they do, and where it says so
+  while (!bytes.empty()) {
+    const uint64_t place = bytes.data() - file.data();
+    const std::string_view header = takeBlock(bytes), data = takeBlock(bytes), op = fieldOf(header, "op");
+    if (op.size() != 1) throw Damage{header.data()};
+    records.insert(place);
+    switch (op[0]) {
+      case kBagHeader: said_records[placeOf(header, "index_pos")] = header.data(); break;
+      case kChunkInfo: said_chunks[placeOf(header, "chunk_pos")] = header.data(); break;
+      case kChunk: {
+        chunks.insert(place);
+        const bool is_plain = fieldOf(header, "compression") == "none";
+        chunk_size = numberOf(header, "size");
+        if (is_plain) chunk_size = std::min<size_t>(chunk_size, data.size());
+        chunk = is_plain && data.size() == chunk_size ? data : std::string_view();
+        break;
+      }
+      case kIndex:
+        if (data.size() / kEntry != numberOf(header, "count")) throw Damage{header.data()};
+        checkIndex(data, chunk, chunk_size);
+        break;
+      default: break;
+    }
+  }
+  records.insert(file.size());  // where the index of an empty bag would be
+  said_records.erase(0);        // of a bag that was not closed, for which rosbag has a message
+  for (const auto& [place, at] : said_records)
+    if (records.count(place) == 0) throw Damage{at};
+  for (const auto& [place, at] : said_chunks)
+    if (chunks.count(place) == 0) throw Damage{at};
+}
+
+}  // namespace
+
+void checkBagStructure(const std::string& path) {
+  namespace ipc = boost::interprocess;
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return;
+  try {
+    const ipc::file_mapping file(path.c_str(), ipc::read_only);
+    const ipc::mapped_region region(file, ipc::read_only);
+    const std::string_view bytes(static_cast<const char*>(region.get_address()), region.get_size());
+    if (bytes.substr(0, kVersion.size()) != kVersion) return;
+    try {
+      checkRecords(bytes);
+    } catch (const Damage& damage) {
+      throw ConfigurationError(
+          "bag " + path, {"is cut off or damaged at byte " + std::to_string(damage.at - bytes.data()) + " of " +
+                          std::to_string(bytes.size()) + "; rosbag reindex makes of it what can be read"});
+    }
+  } catch (const ipc::interprocess_exception&) {
+    // rosbag says why it cannot be read.
+  }
+}
+
+}  // namespace live_stiffness
