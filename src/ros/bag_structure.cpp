@@ -17,7 +17,7 @@ namespace live_stiffness {
 namespace {
 
 constexpr std::string_view kVersion = "#ROSBAG V2.0\n";
-constexpr char kBagHeader = 3, kIndex = 4, kChunk = 5, kChunkInfo = 6;  // op codes of records
+constexpr char kBagHeader = 3, kIndex = 4, kChunk = 5, kChunkInfo = 6, kConnection = 7;  // op codes of records
 constexpr size_t kEntry = 12, kTime = 8;                               // bytes of an entry of the index: time, offset
 
 struct Damage {
@@ -41,6 +41,10 @@ std::string_view takeBlock(std::string_view& bytes) {
   return block;
 }
 
+void checkFields(std::string_view header) {
+  while (!header.empty()) takeBlock(header);
+}
+
 // Of a record's header, which is blocks of "name=value".
 std::string_view fieldOf(std::string_view header, std::string_view name) {
   const char* begin = header.data();
@@ -52,7 +56,7 @@ std::string_view fieldOf(std::string_view header, std::string_view name) {
   throw Damage{begin};
 }
 
-// Every message that the index names has its header within the chunk. chunk: empty if it is compressed, which has sums,
+// Every message that the index names lies within the chunk. chunk: empty if it is compressed, which has sums,
 // or encrypted.
 void checkIndex(std::string_view entries, std::string_view chunk, uint32_t chunk_size) {
   for (size_t entry = 0; entry + kEntry <= entries.size(); entry += kEntry) {
@@ -60,8 +64,8 @@ void checkIndex(std::string_view entries, std::string_view chunk, uint32_t chunk
     if (offset >= chunk_size) throw Damage{entries.data() + entry};
     if (chunk.empty()) continue;
     std::string_view message = chunk.substr(offset);
-    takeBlock(message);
-    numberAt(message, 0);
+    checkFields(takeBlock(message));
+    if (numberAt(message, 0) <= kLargestMessage) takeBlock(message);
   }
 }
 
@@ -82,6 +86,7 @@ void checkRecords(std::string_view file) {
     const uint64_t place = bytes.data() - file.data();
     const std::string_view header = takeBlock(bytes), data = takeBlock(bytes), op = fieldOf(header, "op");
     if (op.size() != 1) throw Damage{header.data()};
+    checkFields(header);
     records.insert(place);
     switch (op[0]) {
       case kBagHeader: said_records[placeOf(header, "index_pos")] = header.data(); break;
@@ -98,6 +103,7 @@ void checkRecords(std::string_view file) {
         if (data.size() / kEntry != numberOf(header, "count")) throw Damage{header.data()};
         checkIndex(data, chunk, chunk_size);
         break;
+      case kConnection: checkFields(data); break;
       default: break;
     }
   }

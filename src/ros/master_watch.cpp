@@ -49,7 +49,7 @@ void MasterWatch::run() {
 
 void MasterWatch::look() {
   XmlRpcValue pid, answer;
-  if (!ask("getPid", pid)) {
+  if (!askMaster("getPid", pid)) {
     if (!is_away_ && !ros::isShuttingDown())
       ROS_WARN("the master at %s does not answer: what is connected goes on, but nodes that start now find nobody",
                ros::master::getURI().c_str());
@@ -58,13 +58,14 @@ void MasterWatch::look() {
   }
   // Not lookupNode: what roscpp goes on to tell a new master, or another node tells it of this one, would make it known.
   // Not the process number alone: in a container every master may have the same.
-  const bool is_known = ask("lookupService", answer, ownService());
+  const bool is_known = askMaster("lookupService", answer, ownService());
   if (ros::isShuttingDown()) return;  // asked last: shutting down is why it may not be known
   if (is_known && (pid_ == 0 || pid_ == static_cast<int>(pid))) {
     remember();
   } else if (!uri_.empty()) {
     ROS_WARN("the master was restarted: registering there anew");
-    if (parameters_.valid() && !ask("getParam", answer, namespace_)) ask("setParam", answer, namespace_, parameters_);
+    if (parameters_.valid() && !askMaster("getParam", answer, namespace_))
+      askMaster("setParam", answer, namespace_, parameters_);
     registerAnew();
   }
   pid_ = static_cast<int>(pid);
@@ -74,8 +75,8 @@ void MasterWatch::look() {
 // What the master knows of this process.
 void MasterWatch::remember() {
   XmlRpcValue uri, state, types, api;
-  if (!ask("lookupNode", uri, ros::this_node::getName()) || !ask("getSystemState", state) ||
-      !ask("getTopicTypes", types))
+  if (!askMaster("lookupNode", uri, ros::this_node::getName()) || !askMaster("getSystemState", state) ||
+      !askMaster("getTopicTypes", types))
     return;
   std::map<std::string, std::string> publications = ofThisNode(state[0]), subscriptions = ofThisNode(state[1]),
                                      services = ofThisNode(state[2]);
@@ -88,7 +89,7 @@ void MasterWatch::remember() {
   for (auto& [name, service_uri] : services) {
     const auto known = services_.find(name);
     if (known != services_.end()) service_uri = known->second;
-    else if (ask("lookupService", api, name)) service_uri = static_cast<std::string>(api);
+    else if (askMaster("lookupService", api, name)) service_uri = static_cast<std::string>(api);
   }
   uri_ = static_cast<std::string>(uri);
   rememberPublishers(state[0]);
@@ -96,7 +97,7 @@ void MasterWatch::remember() {
   subscriptions_ = std::move(subscriptions);
   services_ = std::move(services);
   XmlRpcValue parameters;
-  if (ask("getParam", parameters, namespace_)) parameters_ = parameters;
+  if (askMaster("getParam", parameters, namespace_)) parameters_ = parameters;
 }
 
 // Names of the publishers that this process is connected to. publications: pairs of getSystemState.
@@ -108,7 +109,7 @@ void MasterWatch::rememberPublishers(XmlRpcValue& publications) {
     if (known != publishers_.end()) publishers.insert(*known);
     for (auto name = topics.begin(); name != topics.end() && publishers.count(uri) == 0; ++name) {
       XmlRpcValue api;
-      if (name->second == topic && ask("lookupNode", api, name->first) && static_cast<std::string>(api) == uri)
+      if (name->second == topic && askMaster("lookupNode", api, name->first) && static_cast<std::string>(api) == uri)
         publishers[uri] = name->first;
     }
   }
@@ -123,18 +124,18 @@ void MasterWatch::registerPublishers() {
     if (name == publishers_.end() || type == subscriptions_.end() || !isAlive(uri)) continue;
     // The master would stop one that has begun again under the same name.
     XmlRpcValue known, answer;
-    if (ask("lookupNode", known, name->second) && static_cast<std::string>(known) != uri) continue;
-    askAs(name->second, "registerPublisher", answer, topic, type->second, uri);
+    if (askMaster("lookupNode", known, name->second) && static_cast<std::string>(known) != uri) continue;
+    askMasterAs(name->second, "registerPublisher", answer, topic, type->second, uri);
   }
 }
 
 void MasterWatch::registerAnew() {
   XmlRpcValue answer;
   registerPublishers();
-  for (const auto& [service, uri] : services_) ask("registerService", answer, service, uri, uri_);
-  for (const auto& [topic, type] : publications_) ask("registerPublisher", answer, topic, type, uri_);
+  for (const auto& [service, uri] : services_) askMaster("registerService", answer, service, uri, uri_);
+  for (const auto& [topic, type] : publications_) askMaster("registerPublisher", answer, topic, type, uri_);
   for (const auto& [topic, type] : subscriptions_) {
-    if (!ask("registerSubscriber", answer, topic, type, uri_) || answer.size() == 0) continue;
+    if (!askMaster("registerSubscriber", answer, topic, type, uri_) || answer.size() == 0) continue;
     // Who publishes already: told to this process as the master would. Not of nobody, which would cut those that could
     // not be registered.
     XmlRpcValue request, response;

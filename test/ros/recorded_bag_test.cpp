@@ -37,6 +37,14 @@ class RecordedBag : public ::testing::Test {
     const ros::Time stamp(time);
     bag_.write("tip_force_torque", stamp, toWrenchStamped(Wrench(force * Wrench::Unit(0)), stamp, frame));
   }
+  // At 10.5, 11.5 and 12.5 s, 0.1 m apart, each with pressures before it; the bag is closed.
+  void threePoses() {
+    for (int i = 0; i < 3; ++i) {
+      pressures(10.0 + i, 1e4);
+      pose(10.5 + i, 0.1 * i);
+    }
+    bag_.close();
+  }
   Recording load() {
     bag_.close();
     return loadRecordedBag(path_);
@@ -107,11 +115,7 @@ TEST_F(RecordedBag, LeavesOutWhatCannotBeReadAndSaysSo) {
 }
 
 TEST_F(RecordedBag, LeavesOutAMessageThatIsDamaged) {
-  for (int i = 0; i < 3; ++i) {
-    pressures(10.0 + i, 1e4);
-    pose(10.5 + i, 0.1 * i);
-  }
-  bag_.close();
+  threePoses();
   const ros::Time stamp(11.5);
   const Pose X_AS{Matrix3::Identity(), Vector3(0.1, 0.0, 0.0)};
   ASSERT_TRUE(damageSize(path_, toPoseStamped(X_AS, stamp, "aurora"), 1u << 24));
@@ -123,11 +127,7 @@ TEST_F(RecordedBag, LeavesOutAMessageThatIsDamaged) {
 
 // Read, or refused with a reason, whichever byte is wrong and wherever the file ends.
 TEST_F(RecordedBag, IsReadOrRefusedHoweverItIsDamaged) {
-  for (int i = 0; i < 3; ++i) {
-    pressures(10.0 + i, 1e4);
-    pose(10.5 + i, 0.1 * i);
-  }
-  bag_.close();
+  threePoses();
   std::ifstream file(path_, std::ios::binary);
   const std::string whole{std::istreambuf_iterator<char>(file), {}};
   int read = 0, refused = 0;

@@ -7,16 +7,17 @@
 
 #include <string>
 
+#include "live_stiffness/ros/bag_structure.h"
+
 namespace live_stiffness {
 
 // Null, and `fault` says why, if it cannot be read or is of another type. The size is looked at first: rosbag takes it as
 // it stands in the bag, and reads on behind the end of what it has.
 template <class Message>
 boost::shared_ptr<Message> readMessage(const rosbag::MessageInstance& instance, std::string& fault) {
-  constexpr uint32_t kLargest = 16384;  // bytes; pressures of a thousand chambers
   try {
-    if (instance.size() > kLargest) {
-      fault = std::to_string(instance.size()) + " bytes: must be at most " + std::to_string(kLargest) +
+    if (instance.size() > kLargestMessage) {
+      fault = std::to_string(instance.size()) + " bytes: must be at most " + std::to_string(kLargestMessage) +
               "; the bag may be damaged";
       return nullptr;
     }

@@ -2,12 +2,17 @@
 // Whether the lengths and places that a bag tells of itself lie within it. rosbag believes them, and reads where nothing
 // is.
 
+#include <cstdint>
 #include <string>
 
 namespace live_stiffness {
 
+// Bytes; pressures of a thousand chambers. What is larger is none of our messages, or damaged.
+constexpr uint32_t kLargestMessage = 16384;
+
 // Of a bag of format 2.0, http://wiki.ros.org/Bags/Format/2.0; anything else is left to rosbag. ConfigurationError with
-// the byte at which it is cut off or damaged. The size of a single message is left to readMessage().
+// the byte at which it is cut off or damaged. A message that says to be larger than kLargestMessage is left to
+// readMessage(), so that one does not spoil the rest.
 void checkBagStructure(const std::string& path);
 
 }  // namespace live_stiffness

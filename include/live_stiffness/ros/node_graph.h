@@ -14,8 +14,8 @@ namespace live_stiffness {
 
 // A method of the master, with strings or XmlRpcValues, as node `name`: false if it cannot be reached, or refuses.
 template <class... Arguments>
-bool askAs(const std::string& name, const std::string& method, XmlRpc::XmlRpcValue& answer,
-           const Arguments&... arguments) {
+bool askMasterAs(const std::string& name, const std::string& method, XmlRpc::XmlRpcValue& answer,
+                 const Arguments&... arguments) {
   XmlRpc::XmlRpcValue request, response;
   int i = 0;
   request[i++] = name;
@@ -25,8 +25,8 @@ bool askAs(const std::string& name, const std::string& method, XmlRpc::XmlRpcVal
 
 // As this node.
 template <class... Arguments>
-bool ask(const std::string& method, XmlRpc::XmlRpcValue& answer, const Arguments&... arguments) {
-  return askAs(ros::this_node::getName(), method, answer, arguments...);
+bool askMaster(const std::string& method, XmlRpc::XmlRpcValue& answer, const Arguments&... arguments) {
+  return askMasterAs(ros::this_node::getName(), method, answer, arguments...);
 }
 
 // A method of the node at `uri`: false if it does not answer within a second, as when the computer it ran on is off.
