@@ -2,13 +2,12 @@
 
 #include <cmath>
 #include <fstream>
-#include <limits>
 #include <sstream>
+
+#include "live_stiffness/conventions.h"
 
 namespace live_stiffness {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::string joined(const std::string& subject, const std::vector<std::string>& faults) {
   std::ostringstream text;

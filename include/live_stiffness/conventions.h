@@ -12,6 +12,7 @@
 // theory", International Journal of Robotics Research, 2024. Numbers in brackets, such as (24), are its equations.
 
 #include <Eigen/Core>
+#include <limits>
 
 namespace live_stiffness {
 
@@ -44,11 +45,13 @@ auto angular(const Eigen::MatrixBase<Derived>& x) {
   return x.template tail<3>();
 }
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kPi = 3.14159265358979323846;
+constexpr double kDegree = kPi / 180.0;  // rad
 constexpr double kAtmospherePa = 101325.0;  // standard atmosphere: gauge = absolute - kAtmospherePa
 constexpr double kStandardGravity = 9.80665;
 
-inline double radians(double angle_deg) { return angle_deg * (kPi / 180.0); }
+inline double radians(double angle_deg) { return angle_deg * kDegree; }
 inline double degrees(double angle) { return angle * (180.0 / kPi); }
 
 }  // namespace live_stiffness

@@ -1,6 +1,5 @@
 #include "live_stiffness/analysis/pressure_plan.h"
 
-#include <limits>
 
 #include "live_stiffness/checks.h"
 
@@ -23,7 +22,7 @@ std::vector<PressureRange> checked(std::vector<PressureRange> ranges, int channe
   if (static_cast<int>(ranges.size()) != channels)
     faults.add(std::to_string(ranges.size()) + " ranges given: must be 1, or one for each of the " +
                std::to_string(channels) + " channels");
-  const Range legal{-kAtmospherePa, std::numeric_limits<double>::infinity(), false, true};
+  const Range legal{-kAtmospherePa, kInfinity, false, true};
   for (const PressureRange& range : ranges) {
     faults.check("from (Pa, gauge)", range.from, legal);
     faults.check("to (Pa, gauge)", range.to, legal);

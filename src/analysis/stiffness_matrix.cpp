@@ -2,7 +2,6 @@
 
 #include <Eigen/LU>
 #include <cmath>
-#include <limits>
 
 namespace live_stiffness {
 namespace {
@@ -27,7 +26,7 @@ Matrix6 withAngularScaled(const Matrix6& matrix, double factor) {
 
 StiffnessMatrix stiffnessOf(const Matrix6& C) {
   StiffnessMatrix result;
-  result.condition = std::numeric_limits<double>::infinity();
+  result.condition = kInfinity;
   result.length = angularFactor(C);
   if (!C.allFinite() || !std::isfinite(result.length) || !(result.length > 0.0)) return result;
   const double size = C.topLeftCorner<3, 3>().trace();

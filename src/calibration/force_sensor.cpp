@@ -7,13 +7,12 @@ namespace {
 
 // How well it is known before any measurement: sensors are screwed on by eye, and a clock of its own is a sample or so
 // off. reach: either way from the start; zero: from -1 to 1.
-struct Known {
+struct KnownNumber {
   const char* name;
   ParameterKind kind;
   double sigma, reach, unit;
 };
-constexpr double kDegree = kPi / 180.0;
-constexpr Known kKnown[] = {
+constexpr KnownNumber kKnownNumbers[] = {
     {"force_sensor_azimuth_deg", ParameterKind::kForceSensorAzimuth, 5.0 * kDegree, 30.0 * kDegree, kDegree},
     {"force_sensor_height_m", ParameterKind::kForceSensorHeight, 0.02, 0.1, 1.0},
     {"force_sensor_crosstalk_x", ParameterKind::kForceSensorCrosstalkX, 0.05, 0.0, 1.0},
@@ -35,13 +34,13 @@ T* numberOf(ForceSensorMountOf<T>& mount, ParameterKind kind) {
 }
 
 constexpr int kNumbers = 5;
-using Jet = ceres::Jet<double, kNumbers>;
+using MountJet = ceres::Jet<double, kNumbers>;
 
 }  // namespace
 
 std::optional<SceneParameter> forceSensorParameter(const std::string& name, const ForceSensorMount& mount) {
   ForceSensorMount numbers = mount;
-  for (const Known& known : kKnown) {
+  for (const KnownNumber& known : kKnownNumbers) {
     if (name != known.name) continue;
     SceneParameter parameter;
     parameter.name = name;
@@ -59,7 +58,7 @@ std::optional<SceneParameter> forceSensorParameter(const std::string& name, cons
 const std::vector<std::string>& forceSensorParameterNames() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
-    for (const Known& known : kKnown) all.emplace_back(known.name);
+    for (const KnownNumber& known : kKnownNumbers) all.emplace_back(known.name);
     return all;
   }();
   return names;
@@ -98,22 +97,22 @@ Wrench ForceReadings::slopeAt(const TimePlace& place) const {
 Eigen::Matrix<double, 6, Eigen::Dynamic> ForceReadings::derivative(const ForceSensorMount& mount,
                                                                    const std::vector<SceneParameter>& parameters,
                                                                    double time, const Matrix3& R_BT) const {
-  ForceSensorMountOf<Jet> seeded;
+  ForceSensorMountOf<MountJet> seeded;
   seeded.sign = mount.sign;
   seeded.gains = mount.gains;
   ForceSensorMount numbers = mount;
   for (int k = 0; k < kNumbers; ++k)
-    *numberOf(seeded, kKnown[k].kind) = Jet(*numberOf(numbers, kKnown[k].kind), k);
+    *numberOf(seeded, kKnownNumbers[k].kind) = MountJet(*numberOf(numbers, kKnownNumbers[k].kind), k);
   const TimePlace place = placeIn(times_, time + mount.delay);
   const Wrench reading = valueAt(readings_, place), slope = slopeAt(place);
-  Eigen::Matrix<Jet, 6, 1> read;
-  for (int i = 0; i < 6; ++i) read[i] = Jet(reading[i]) + slope[i] * (seeded.delay - mount.delay);
-  const Eigen::Matrix<Jet, 6, 1> wrench = seeded.atTip(read, R_BT);
+  Eigen::Matrix<MountJet, 6, 1> read;
+  for (int i = 0; i < 6; ++i) read[i] = MountJet(reading[i]) + slope[i] * (seeded.delay - mount.delay);
+  const Eigen::Matrix<MountJet, 6, 1> wrench = seeded.atTip(read, R_BT);
   Eigen::Matrix<double, 6, Eigen::Dynamic> derivative(6, static_cast<long>(parameters.size()));
   derivative.setZero();
   for (size_t k = 0; k < parameters.size(); ++k)
     for (int n = 0; n < kNumbers; ++n)
-      if (parameters[k].kind == kKnown[n].kind)
+      if (parameters[k].kind == kKnownNumbers[n].kind)
         for (int i = 0; i < 6; ++i) derivative(i, static_cast<long>(k)) = wrench[i].v[n];
   return derivative;
 }

@@ -17,7 +17,6 @@ struct Known {
   ParameterKind kind;
   double share, least, low, high, unit;
 };
-constexpr double kDegree = kPi / 180.0;
 constexpr Known kKnown[] = {
     {"youngs_modulus_pa", ParameterKind::kYoungsModulus, 0.5, 0.0, 1e3, 1e9, 1.0},
     {"shear_modulus_pa", ParameterKind::kShearModulus, 0.5, 0.0, 1e2, 1e9, 1.0},

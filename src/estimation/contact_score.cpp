@@ -3,7 +3,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <locale>
 #include <sstream>
 
@@ -39,7 +38,7 @@ void findDelay(const std::vector<double>& times, const std::vector<Vector3>& tru
 }  // namespace
 
 ContactScore contactScore(const std::vector<ContactSample>& samples) {
-  constexpr double kNever = -std::numeric_limits<double>::infinity();
+  constexpr double kNever = -kInfinity;
   ContactScore score;
   double touched = kNever, gentle = samples.empty() ? 0.0 : samples.front().time, false_since = 0.0;
   bool was_false = false;

@@ -96,16 +96,16 @@ class CentredProblem {
   double lever_ = 1.0;  // rms distance of the tip from the base, m: makes turns and offsets comparable
 };
 
-struct Estimate {
+struct Fit {
   Matrix3 R_AB = Matrix3::Identity();
   Vector3 offset = Vector3::Zero();
   double cost = 0.0;
 };
 
 // Gauss-Newton along the directions that the data determine, with step halving.
-Estimate descend(const CentredProblem& problem, const Matrix3& start) {
+Fit descend(const CentredProblem& problem, const Matrix3& start) {
   constexpr int kMaxIterations = 100;
-  Estimate best{start, Vector3::Zero(), 0.0};
+  Fit best{start, Vector3::Zero(), 0.0};
   best.cost = problem.cost(best.R_AB, best.offset);
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     Matrix6 normal;
@@ -120,7 +120,7 @@ Estimate descend(const CentredProblem& problem, const Matrix3& start) {
     }
     bool better = false;
     for (double factor = 1.0; factor > 1e-3 && !better; factor *= 0.5) {
-      Estimate next;
+      Fit next;
       next.R_AB = expSo3(factor / problem.lever() * step.head<3>()) * best.R_AB;
       next.offset = best.offset + factor * step.tail<3>();
       next.cost = problem.cost(next.R_AB, next.offset);
@@ -132,7 +132,7 @@ Estimate descend(const CentredProblem& problem, const Matrix3& start) {
   return best;
 }
 
-void markUndetermined(const CentredProblem& problem, const Estimate& estimate, RegistrationFit& fit) {
+void markUndetermined(const CentredProblem& problem, const Fit& estimate, RegistrationFit& fit) {
   Matrix6 normal;
   Vector6 gradient;
   problem.linearize(estimate.R_AB, estimate.offset, normal, gradient);
@@ -168,8 +168,8 @@ void checkSamples(const std::vector<Pose>& X_BT, const std::vector<Pose>& X_AS) 
 RegistrationFit fitRegistration(const std::vector<Pose>& X_BT, const std::vector<Pose>& X_AS) {
   checkSamples(X_BT, X_AS);
   const CentredProblem problem(X_BT, X_AS);
-  Estimate best = descend(problem, problem.startFromPositions());
-  const Estimate other = descend(problem, problem.startFromOrientations());
+  Fit best = descend(problem, problem.startFromPositions());
+  const Fit other = descend(problem, problem.startFromOrientations());
   if (other.cost < best.cost) best = other;
 
   RegistrationFit fit;

@@ -1,7 +1,6 @@
 #include "live_stiffness/estimation/tracker_delay.h"
 
 #include <cmath>
-#include <limits>
 
 #include "live_stiffness/checks.h"
 #include "live_stiffness/estimation/interpolation.h"
@@ -117,8 +116,7 @@ TrackerDelay fitTrackerDelay(const std::vector<double>& times, const std::vector
   // Tracker noise at least, so that a simulation without any does not claim to know more than a sample's rounding.
   constexpr double kLeast = 3e-5;  // m
   const double variance = std::max(mean_square / 3.0, kLeast * kLeast);  // per axis
-  result.standard_error = squared_speeds > 0.0 ? std::sqrt(variance * sharing / squared_speeds)
-                                               : std::numeric_limits<double>::infinity();
+  result.standard_error = squared_speeds > 0.0 ? std::sqrt(variance * sharing / squared_speeds) : kInfinity;
   result.determined =
       result.standard_error < TrackerDelay::kLargestError && std::abs(delay) < TrackerDelay::kLargest - 1e-9;
   if (!result.determined) return result;

@@ -3,7 +3,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "live_stiffness/compliance/material_compliance.h"
 
@@ -157,7 +156,7 @@ double HeldRod::linearise(double goal) {
   angular(twist_of_length_) = R * (phi.rightCols<3>() * weight + turn);
   linear(wrench_of_length_).setZero();
   angular(wrench_of_length_) = R * (m.rightCols<3>() * weight - tangent.cross(f));
-  return stiffness_.allFinite() ? left : std::numeric_limits<double>::infinity();
+  return stiffness_.allFinite() ? left : kInfinity;
 }
 
 bool HeldRod::relieve() {

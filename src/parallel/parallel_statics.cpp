@@ -3,14 +3,12 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "live_stiffness/parallel/platform_guess.h"
 
 namespace live_stiffness {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Misfits of rods load one another, which makes more of an error than in a rod alone: up to six times, measured over
 // the configurations of test/parallel.
 constexpr double kMisfit = 8.0;

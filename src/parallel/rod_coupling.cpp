@@ -3,12 +3,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace live_stiffness {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // A twist of P as one of the point at `lever` from it.
 Twist atLever(const Twist& twist, const Vector3& lever) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace live_stiffness {
 namespace {
@@ -88,7 +87,7 @@ bool Discretisation::chooseForDemand(Backbone& backbone) {
   bool one_each = true;
   for (size_t k = 0; k < demand_.size(); ++k) one_each = one_each && demandOf(k) <= bendingOf(choices_.front());
   const Choice* best = &choices_.front();
-  double cheapest = std::numeric_limits<double>::infinity();
+  double cheapest = kInfinity;
   for (const Choice& choice : choices_) {
     if (one_each) break;
     double cost = 0.0;

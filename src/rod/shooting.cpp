@@ -1,7 +1,6 @@
 #include "live_stiffness/rod/shooting.h"
 
 #include <cmath>
-#include <limits>
 
 namespace live_stiffness {
 
@@ -88,7 +87,7 @@ bool shoot(const Chain& chain, const DeadLoads& loads, const Vector3& base_momen
            Backbone& backbone, Vector3& residual) {
   constexpr int kMaxSweeps = 100;
   constexpr double kConverged = 2e-16, kWobble = 1e-13;  // rad
-  double last_change = std::numeric_limits<double>::infinity();
+  double last_change = kInfinity;
   for (int i = 0; i < kMaxSweeps; ++i) {
     const bool anew = i == 0 && !nodes_hold_guess;
     const Sweep s = sweep(chain, loads, base_moment, anew ? Pass::kAnew : Pass::kFinish, backbone);

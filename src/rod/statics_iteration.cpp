@@ -3,14 +3,12 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "live_stiffness/rod/statics.h"
 
 namespace live_stiffness {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kResidualGoal = 1e-12;     // rad, see StaticsReport::residual
 constexpr double kResidualAccepted = 1e-8;  // rad, when rounding stops it short of the goal; it is part of the estimate
 constexpr double kRoughColumns = 1e-2;      // relative error, enough for sweeps to converge

@@ -7,17 +7,12 @@
 
 #include "live_stiffness/calibration/calibration_report.h"
 #include "live_stiffness/checks.h"
-#include "live_stiffness/rod/scene_file.h"
 #include "support/scenes.h"
 #include "support/shared_data.h"
 #include "support/simulated_recording.h"
 
 namespace live_stiffness {
 namespace {
-
-const ChannelMap kPairs = ChannelMap::even(3, 6);
-
-Scene arm() { return loadSceneFile(SOURCE_DIR "/config/scenes/stiff_flop_recorded.yaml"); }
 
 std::vector<SceneParameter> parametersOf(const Scene& scene, const std::vector<std::string>& names) {
   std::vector<SceneParameter> parameters;

@@ -5,16 +5,11 @@
 #include <cmath>
 
 #include "live_stiffness/calibration/calibration.h"
-#include "live_stiffness/rod/scene_file.h"
 #include "support/scenes.h"
 #include "support/simulated_recording.h"
 
 namespace live_stiffness {
 namespace {
-
-const ChannelMap kPairs = ChannelMap::even(3, 6);
-
-Scene arm() { return loadSceneFile(SOURCE_DIR "/config/scenes/stiff_flop_recorded.yaml"); }
 
 ForceSensorMount mountOf(double azimuth_deg, double height, Vector2Of<double> crosstalk, double delay) {
   ForceSensorMount mount;

@@ -14,7 +14,7 @@ const std::string kTip = ",tip_x_m,tip_y_m,tip_z_m,tip_qw,tip_qx,tip_qy,tip_qz";
 const std::string kHeader = "time_s,pressure_1_pa_abs" + kTip + "\n";
 const std::string kPose = ",1,2,3,1,0,0,0\n";  // closes a line
 
-std::vector<std::string> faultsOf(const std::string& csv) {
+std::vector<std::string> faultsIn(const std::string& csv) {
   try {
     parseRecording(csv, "test");
   } catch (const ConfigurationError& error) {
@@ -89,19 +89,19 @@ TEST(Recording, BlankLinesAndCarriageReturnsAndByteOrderMarkAreHarmless) {
 }
 
 TEST(Recording, NothingLeftIsAnErrorWithTheReasons) {
-  const std::vector<std::string> faults = faultsOf(kHeader + "0,nan" + kPose);
+  const std::vector<std::string> faults = faultsIn(kHeader + "0,nan" + kPose);
   ASSERT_EQ(faults.size(), 2u);
   EXPECT_NE(faults[1].find("line 2"), std::string::npos);
-  EXPECT_EQ(faultsOf(kHeader).size(), 1u);
+  EXPECT_EQ(faultsIn(kHeader).size(), 1u);
   EXPECT_THROW(loadRecording("/nowhere/at_all.csv"), ConfigurationError);
 }
 
 TEST(Recording, HeaderFaultsComeAllAtOnce) {
-  EXPECT_EQ(faultsOf("").size(), 9u);  // time, pressures, three positions, four of the quaternion
-  EXPECT_EQ(faultsOf("time_s,time_s,pressure_1_pa,pressure_3_pa" + kTip + "\n").size(), 2u);  // repeated; channel 2
-  EXPECT_EQ(faultsOf("time_s,pressure_1_pa,pressure_1_pa_abs" + kTip + "\n").size(), 1u);     // gauge and absolute
-  EXPECT_EQ(faultsOf("time_s,pressure_1_pa,base_x_m" + kTip + "\n").size(), 2u);              // base y and z
-  EXPECT_EQ(faultsOf("time_s,pressure_1_pa,force_x_n,force_y_n,force_z_n" + kTip + "\n").size(), 3u);  // no torque
+  EXPECT_EQ(faultsIn("").size(), 9u);  // time, pressures, three positions, four of the quaternion
+  EXPECT_EQ(faultsIn("time_s,time_s,pressure_1_pa,pressure_3_pa" + kTip + "\n").size(), 2u);  // repeated; channel 2
+  EXPECT_EQ(faultsIn("time_s,pressure_1_pa,pressure_1_pa_abs" + kTip + "\n").size(), 1u);     // gauge and absolute
+  EXPECT_EQ(faultsIn("time_s,pressure_1_pa,base_x_m" + kTip + "\n").size(), 2u);              // base y and z
+  EXPECT_EQ(faultsIn("time_s,pressure_1_pa,force_x_n,force_y_n,force_z_n" + kTip + "\n").size(), 3u);  // no torque
 }
 
 TEST(Recording, UnknownColumnsAreIgnoredWithAWarning) {

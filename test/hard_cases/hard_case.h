@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "live_stiffness/compliance/stiffness_model.h"
+#include "support/scenes.h"
 
 namespace live_stiffness {
 
@@ -44,6 +45,13 @@ class HardOutcome {
   bool any_status_ = false;
   std::string faults_;
 };
+
+// Of scenes of any size, which a step in Pa does not fit.
+inline ModelOptions continuousOptions(double accuracy = 1e-10) {
+  ModelOptions options = accurateTo(accuracy);
+  options.stepping = Stepping::kContinuous;
+  return options;
+}
 
 struct HardCase {
   std::string name;   // lower_case

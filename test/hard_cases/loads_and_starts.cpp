@@ -15,12 +15,6 @@
 namespace live_stiffness {
 namespace {
 
-ModelOptions continuousOptions(double accuracy) {
-  ModelOptions options = accurateTo(accuracy);
-  options.stepping = Stepping::kContinuous;
-  return options;
-}
-
 // Tip and base moment after a hundred warm steps of the load from zero: slow, and sure to be on the branch that the
 // loads lead to.
 Pose tipAlongLoads(const Scene& scene, const Backbone& solved) {

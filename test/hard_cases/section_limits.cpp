@@ -1,7 +1,6 @@
 // Pressures up to the end of the section's range and past it, in one chamber, in all and in opposite ones, and vacuum.
 
 #include <cmath>
-#include <limits>
 
 #include "hard_cases/hard_case.h"
 #include "live_stiffness/rig/fine_robot.h"
@@ -10,12 +9,6 @@
 
 namespace live_stiffness {
 namespace {
-
-ModelOptions continuousOptions(double accuracy = 1e-10) {
-  ModelOptions options = accurateTo(accuracy);
-  options.stepping = Stepping::kContinuous;
-  return options;
-}
 
 // The paper's section, by hand.
 constexpr double kOuter = 0.0125, kLumen = 0.0044, kChamber = 0.00225, kPitch = 0.00831, kModulus = 90060.0;

@@ -10,12 +10,6 @@
 namespace live_stiffness {
 namespace {
 
-ModelOptions continuousOptions(double accuracy) {
-  ModelOptions options = accurateTo(accuracy);
-  options.stepping = Stepping::kContinuous;  // its steps are not in Pa
-  return options;
-}
-
 void compareWithFineRobot(HardOutcome& outcome, const Scene& scene, const Pressures& pressures, const Wrench& wrench) {
   const StiffnessModel model(scene, continuousOptions(1e-10));
   const StiffnessSolution solution = outcome.solveCold(model, pressures, wrench);

@@ -8,7 +8,7 @@
 namespace live_stiffness {
 namespace {
 
-ContactOptions options() {
+ContactOptions pushes() {
   ContactOptions options;
   options.wrench << 0.8, 0.0, -0.1, 0.002, 0.0, 0.001;
   options.start = 2.0;
@@ -26,7 +26,7 @@ TEST(Contact, NothingTouchesUnlessAsked) {
 }
 
 TEST(Contact, TouchesDuringItsPushesAndAtNoOtherTime) {
-  const Contact contact(options());
+  const Contact contact(pushes());
   EXPECT_TRUE(contact.exists());
   for (double t = -1.0; t < 40.0; t += 0.125) {
     const double into = std::fmod(t - 2.0 + 80.0, 8.0);  // 80: ten periods, for a positive argument
@@ -36,22 +36,22 @@ TEST(Contact, TouchesDuringItsPushesAndAtNoOtherTime) {
 }
 
 TEST(Contact, HoldsItsHeightBetweenTheRampsAndIsHalfOfItInTheirMiddle) {
-  const Contact contact(options());
-  for (double t : {3.0, 3.5, 4.0}) EXPECT_EQ(contact.at(t), options().wrench) << t;
-  EXPECT_LT((contact.at(2.5) - 0.5 * options().wrench).norm(), 1e-15);
-  EXPECT_LT((contact.at(4.5) - 0.5 * options().wrench).norm(), 1e-15);
+  const Contact contact(pushes());
+  for (double t : {3.0, 3.5, 4.0}) EXPECT_EQ(contact.at(t), pushes().wrench) << t;
+  EXPECT_LT((contact.at(2.5) - 0.5 * pushes().wrench).norm(), 1e-15);
+  EXPECT_LT((contact.at(4.5) - 0.5 * pushes().wrench).norm(), 1e-15);
 }
 
 TEST(Contact, RampsNeverJump) {
-  const Contact contact(options());
+  const Contact contact(pushes());
   // A quintic blend is at most 15/8 as steep as its mean.
-  const double steepest = 15.0 / 8.0 * options().wrench.norm() / 1.0;
+  const double steepest = 15.0 / 8.0 * pushes().wrench.norm() / 1.0;
   for (double t = 1.0; t < 12.0; t += 1e-3)
     ASSERT_LE((contact.at(t + 1e-3) - contact.at(t)).norm(), 1.001 * steepest * 1e-3) << t;
 }
 
 TEST(Contact, TurnsAboutTheBaseAxisFromPushToPush) {
-  const Contact contact(options());
+  const Contact contact(pushes());
   Wrench turned;
   turned << 0.0, 0.8, -0.1, 0.0, 0.002, 0.001;  // a quarter turn
   EXPECT_LT((contact.at(11.5) - turned).norm(), 1e-15);
@@ -60,7 +60,7 @@ TEST(Contact, TurnsAboutTheBaseAxisFromPushToPush) {
 }
 
 TEST(Contact, PushesOnceWithoutAPeriod) {
-  ContactOptions once = options();
+  ContactOptions once = pushes();
   once.period = 0.0;
   const Contact contact(once);
   EXPECT_EQ(contact.at(3.5), once.wrench);
@@ -68,7 +68,7 @@ TEST(Contact, PushesOnceWithoutAPeriod) {
 }
 
 TEST(Contact, RefusesBadOptionsAllAtOnce) {
-  ContactOptions bad = options();
+  ContactOptions bad = pushes();
   bad.wrench[1] = std::numeric_limits<double>::quiet_NaN();
   bad.start = -1.0;
   bad.ramp = 1.6;     // more than half of the duration

@@ -14,7 +14,7 @@ namespace {
 
 Scene scene() { return loadSceneFile(SOURCE_DIR "/config/scenes/stiff_flop_recorded.yaml"); }
 
-RigOptions options() {
+RigOptions rigOptions() {
   RigOptions options;
   options.channel_of_chamber = {0, 0, 1, 1, 2, 2};
   options.program = {ProgramKind::kTriangle, 80000.0, 10.0, 1};
@@ -24,7 +24,7 @@ RigOptions options() {
 }
 
 RigOptions ideal() {
-  RigOptions o = options();
+  RigOptions o = rigOptions();
   o.regulator_time_constant = o.regulator_error = o.creep_fraction = o.position_noise = o.rotation_noise = 0.0;
   return o;
 }
@@ -36,7 +36,7 @@ std::vector<RigSample> run(RigModel rig, double end, double step) {
 }
 
 TEST(RigModel, EqualSeedsGiveEqualSamples) {
-  RigOptions o = options();
+  RigOptions o = rigOptions();
   o.program.kind = ProgramKind::kRandomWalk;
   o.drop_out_probability = 0.05;
   const auto a = run(RigModel(scene(), o), 10.0, 0.05), b = run(RigModel(scene(), o), 10.0, 0.05);
@@ -82,7 +82,7 @@ TEST(RigModel, LateTrackerShowsWhereTheRobotWas) {
 
 TEST(RigModel, RegulatorErrorStaysWithinItsBoundAndUsesMostOfIt) {
   double worst = 0.0;
-  for (const RigSample& sample : run(RigModel(scene(), options()), 120.0, 0.25)) {
+  for (const RigSample& sample : run(RigModel(scene(), rigOptions()), 120.0, 0.25)) {
     ASSERT_GE(sample.actual_chambers.minCoeff(), 0.0);
     worst = std::max(worst, (sample.actual_chambers - sample.measured_chambers).cwiseAbs().maxCoeff());
   }
@@ -91,7 +91,7 @@ TEST(RigModel, RegulatorErrorStaysWithinItsBoundAndUsesMostOfIt) {
 }
 
 TEST(RigModel, RegulatorErrorIsSlow) {
-  const auto samples = run(RigModel(scene(), options()), 30.0, 0.05);
+  const auto samples = run(RigModel(scene(), rigOptions()), 30.0, 0.05);
   // Sum of the three sines' slopes: 3000 / 3 * 2 pi / 60 * (1 + 2 + 3) Pa/s.
   const double steepest = 3000.0 / 3.0 * 2.0 * kPi / 60.0 * 6.0;
   for (size_t k = 1; k < samples.size(); ++k) {
@@ -114,7 +114,7 @@ TEST(RigModel, RegulatorTrailsARampByItsTimeConstant) {
 }
 
 TEST(RigModel, DoesNotDependOnTheStepWhereTheCommandIsLinear) {
-  RigOptions o = options();
+  RigOptions o = rigOptions();
   o.regulator_error = 0.0;
   RigModel coarse(scene(), o), fine(scene(), o);
   const RigSample a = coarse.step(2.0);
@@ -142,7 +142,7 @@ TEST(RigModel, CreepRelaxesToTheActualPressure) {
 }
 
 TEST(RigModel, TrackerNoiseHasTheSpecifiedRmsMagnitude) {
-  RigOptions o = options();
+  RigOptions o = rigOptions();
   o.program.amplitude = 0.0;
   double p_squares = 0.0, R_squares = 0.0;
   const auto samples = run(RigModel(scene(), o), 100.0, 0.05);
@@ -157,7 +157,7 @@ TEST(RigModel, TrackerNoiseHasTheSpecifiedRmsMagnitude) {
 }
 
 TEST(RigModel, DropOutsLastTheirDuration) {
-  RigOptions o = options();
+  RigOptions o = rigOptions();
   o.program.amplitude = 0.0;
   o.drop_out_probability = 0.02;
   o.drop_out_duration = 0.475;  // ten samples of 0.05 s: no rounding at the end
@@ -178,7 +178,7 @@ TEST(RigModel, DropOutsLastTheirDuration) {
 }
 
 TEST(RigModel, NoDropOutsUnlessAsked) {
-  for (const RigSample& sample : run(RigModel(scene(), options()), 5.0, 0.05)) EXPECT_TRUE(sample.X_AS.has_value());
+  for (const RigSample& sample : run(RigModel(scene(), rigOptions()), 5.0, 0.05)) EXPECT_TRUE(sample.X_AS.has_value());
 }
 
 TEST(RigModel, TipWrenchPushesTheTip) {
@@ -210,7 +210,7 @@ TEST(RigModel, ContactMovesTheTipAsTheSameDeadWrenchDoesAndOnlyWhileItLasts) {
 }
 
 TEST(RigModel, RefusesBadOptionsAllAtOnce) {
-  RigOptions o = options();
+  RigOptions o = rigOptions();
   o.program.amplitude = -1.0;
   o.program.period = 0.0;
   o.regulator_time_constant = -0.1;
@@ -237,13 +237,13 @@ TEST(RigModel, RefusesBadOptionsAllAtOnce) {
 }
 
 TEST(RigModel, RefusesPressuresBeyondTheSectionsRange) {
-  RigOptions o = options();
+  RigOptions o = rigOptions();
   o.program.amplitude = 3e5;
   EXPECT_THROW(RigModel(scene(), o), ConfigurationError);
 }
 
 TEST(RigModel, TimeMustNotGoBack) {
-  RigModel rig(scene(), options());
+  RigModel rig(scene(), rigOptions());
   rig.step(1.0);
   EXPECT_THROW(rig.step(0.9), std::invalid_argument);
   EXPECT_THROW(rig.step(std::nan("")), std::invalid_argument);

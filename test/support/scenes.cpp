@@ -31,6 +31,8 @@ Segment& segmentOf(Scene& scene, int index) {
   throw std::out_of_range("no such segment");
 }
 
+Scene arm() { return loadSceneFile(SOURCE_DIR "/config/scenes/stiff_flop_recorded.yaml"); }
+
 ModelOptions accurateTo(double accuracy) {
   ModelOptions options;
   options.accuracy = accuracy;

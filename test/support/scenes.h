@@ -17,6 +17,9 @@ Scene weightlessPaperScene(int segments);
 // end, tip mass off the axis, and gravity oblique to all axes.
 Scene awkwardScene();
 
+// config/scenes/stiff_flop_recorded.yaml.
+Scene arm();
+
 Segment& segmentOf(Scene& scene, int index);
 
 // Options with the given accuracy, else default.

@@ -5,8 +5,12 @@
 
 #include "live_stiffness/estimation/recording.h"
 #include "live_stiffness/rig/rig_model.h"
+#include "live_stiffness/section/channel_map.h"
 
 namespace live_stiffness {
+
+// Three channels, each of which feeds a pair of chambers.
+inline const ChannelMap kPairs = ChannelMap::even(3, 6);
 
 struct SimulatedRecording {
   double seconds = 40.0, sample_time = 0.1;
@@ -22,7 +26,7 @@ struct SimulatedRecording {
             {expSo3(Vector3(0.1, 0.3, -1.0)), Vector3(0.012, 0.002, -0.003)}};
   }
 
-  // Three channels, each of which feeds a pair of chambers.
+  // Of kPairs.
   Recording record(const Scene& truth) const {
     RigOptions options;
     options.channel_of_chamber = {0, 0, 1, 1, 2, 2};
