@@ -18,7 +18,8 @@ namespace {
 
 constexpr std::string_view kVersion = "#ROSBAG V2.0\n";
 constexpr char kBagHeader = 3, kIndex = 4, kChunk = 5, kChunkInfo = 6, kConnection = 7;  // op codes of records
-constexpr size_t kEntry = 12, kTime = 8;                               // bytes of an entry of the index: time, offset
+constexpr size_t kEntry = 12, kTime = 8;  // bytes of an entry of the index: time, offset
+constexpr uint32_t kLargestChunk = 1u << 30;  // bytes, unpacked; usually less than a million
 
 struct Damage {
   const char* at;  // where it was noticed
@@ -95,6 +96,7 @@ void checkRecords(std::string_view file) {
         chunks.insert(place);
         const bool is_plain = fieldOf(header, "compression") == "none";
         chunk_size = numberOf(header, "size");
+        if (chunk_size > kLargestChunk) throw Damage{header.data()};
         if (is_plain) chunk_size = std::min<size_t>(chunk_size, data.size());
         chunk = is_plain && data.size() == chunk_size ? data : std::string_view();
         break;
@@ -125,7 +127,10 @@ void checkBagStructure(const std::string& path) {
     const ipc::file_mapping file(path.c_str(), ipc::read_only);
     const ipc::mapped_region region(file, ipc::read_only);
     const std::string_view bytes(static_cast<const char*>(region.get_address()), region.get_size());
-    if (bytes.substr(0, kVersion.size()) != kVersion) return;
+    // Less strict, rosbag would read on.
+    if (bytes.substr(0, kVersion.size()) != kVersion)
+      throw ConfigurationError("bag " + path, {"is no bag of format 2.0: its first line must be #ROSBAG V2.0, which "
+                                               "rosbag has written since 2010"});
     try {
       checkRecords(bytes);
     } catch (const Damage& damage) {

@@ -2,10 +2,8 @@
 // and places that it finds there.
 
 #include <console_bridge/console.h>
+#include <sys/mman.h>
 #include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
 
 #include "live_stiffness/checks.h"
 #include "live_stiffness/ros/recorded_bag.h"
@@ -15,21 +13,21 @@ using namespace live_stiffness;
 
 namespace {
 
-// A bag is read by its name only. Taken away at the end.
+// A bag is read by its name only: of a file that lies in memory.
 class BagFile {
  public:
-  BagFile() : path_(std::filesystem::temp_directory_path() / ("fuzz_bag_" + std::to_string(::getpid()) + ".bag")) {
+  BagFile() : file_(memfd_create("bag", 0)) {
+    require(file_ >= 0, "a file in memory");
     console_bridge::noOutputHandler();  // of rosbag, a line each
   }
-  ~BagFile() { std::filesystem::remove(path_); }
 
-  std::string with(const std::string& bytes) const {
-    std::ofstream(path_, std::ios::binary) << bytes;
-    return path_.string();
+  std::string with(const std::uint8_t* data, size_t size) const {
+    require(ftruncate(file_, 0) == 0 && pwrite(file_, data, size, 0) == static_cast<ssize_t>(size), "it is written");
+    return "/proc/self/fd/" + std::to_string(file_);
   }
 
  private:
-  std::filesystem::path path_;
+  int file_;
 };
 
 }  // namespace
@@ -37,7 +35,7 @@ class BagFile {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size) {
   static const BagFile file;
   try {
-    requireSound(loadRecordedBag(file.with(textOf(data, size))));
+    requireSound(loadRecordedBag(file.with(data, size)));
   } catch (const ConfigurationError& error) {
     require(!error.faults().empty(), "a refusal has a reason");
   }

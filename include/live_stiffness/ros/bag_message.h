@@ -16,8 +16,8 @@ namespace live_stiffness {
 template <class Message>
 boost::shared_ptr<Message> readMessage(const rosbag::MessageInstance& instance, std::string& fault) {
   try {
-    if (instance.size() > kLargestMessage) {
-      fault = std::to_string(instance.size()) + " bytes: must be at most " + std::to_string(kLargestMessage) +
+    if (instance.size() < 1 || instance.size() > kLargestMessage) {
+      fault = std::to_string(instance.size()) + " bytes: must be from 1 to " + std::to_string(kLargestMessage) +
               "; the bag may be damaged";
       return nullptr;
     }

@@ -10,8 +10,8 @@ namespace live_stiffness {
 // Bytes; pressures of a thousand chambers. What is larger is none of our messages, or damaged.
 constexpr uint32_t kLargestMessage = 16384;
 
-// Of a bag of format 2.0, http://wiki.ros.org/Bags/Format/2.0; anything else is left to rosbag. ConfigurationError with
-// the byte at which it is cut off or damaged. A message that says to be larger than kLargestMessage is left to
+// Of a bag of format 2.0, http://wiki.ros.org/Bags/Format/2.0. ConfigurationError if it is of another format, or with the
+// byte at which it is cut off or damaged; a file that cannot be read is left to rosbag. A message that says to be larger than kLargestMessage is left to
 // readMessage(), so that one does not spoil the rest.
 void checkBagStructure(const std::string& path);
 
