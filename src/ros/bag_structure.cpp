@@ -57,8 +57,8 @@ std::string_view fieldOf(std::string_view header, std::string_view name) {
   throw Damage{begin};
 }
 
-// Every message that the index names lies within the chunk. chunk: empty if it is compressed, which has sums,
-// or encrypted.
+// Every message that the index names lies within the chunk. chunk: empty if it is compressed, which has sums, or
+// encrypted.
 void checkIndex(std::string_view entries, std::string_view chunk, uint32_t chunk_size) {
   for (size_t entry = 0; entry + kEntry <= entries.size(); entry += kEntry) {
     const uint32_t offset = numberAt(entries, entry + kTime);
