@@ -125,6 +125,18 @@ TEST_F(RecordedBag, LeavesOutAMessageThatIsDamaged) {
   EXPECT_NE(recording.warnings[0].find("16777216 bytes: must be from 1 to 16384"), std::string::npos) << recording.warnings[0];
 }
 
+// rosbag would take it, and read on.
+TEST_F(RecordedBag, OfAnotherFormatIsRefused) {
+  threePoses();
+  std::fstream(path_, std::ios::binary | std::ios::in | std::ios::out) << "#ROSBOG";
+  try {
+    loadRecordedBag(path_);
+    FAIL() << "it was read";
+  } catch (const ConfigurationError& error) {
+    EXPECT_NE(std::string(error.what()).find("must be #ROSBAG V2.0"), std::string::npos) << error.what();
+  }
+}
+
 // Read, or refused with a reason, whichever byte is wrong and wherever the file ends.
 TEST_F(RecordedBag, IsReadOrRefusedHoweverItIsDamaged) {
   threePoses();
