@@ -65,7 +65,8 @@ void ArrayInput::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   else if (!watch_.oddity().empty())
     status.summary(DiagnosticStatus::WARN, watch_.oddity());
   else if (lost > 0)
-    status.summaryf(DiagnosticStatus::WARN, "%ld messages lost since the last report: they come faster than they are taken", lost);
+    status.summaryf(DiagnosticStatus::WARN, "%ld messages lost since the last report: they come faster than they are taken",
+                    lost);
   else
     status.summary(DiagnosticStatus::OK, "ok");
   watch_.report(status);

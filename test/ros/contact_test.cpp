@@ -69,8 +69,8 @@ TEST(Contact, ForceOfTwoPushesIsEstimatedAndReportedDuringThemAlone) {
     EXPECT_EQ(contact->header.frame_id, "base");
     const auto known = truth.find(contact->header.stamp);
     if (known == truth.end()) continue;  // before this test had subscribed to the truth
-    samples.push_back({contact->header.stamp.toSec(), known->second, vectorFrom(contact->wrench.force), translationalCompliance(*contact),
-                       contact->contact != 0});
+    samples.push_back({contact->header.stamp.toSec(), known->second, vectorFrom(contact->wrench.force),
+                       translationalCompliance(*contact), contact->contact != 0});
     const auto wrench = wrenches.find(contact->header.stamp);
     if (wrench == wrenches.end()) continue;
     EXPECT_EQ(vectorFrom(wrench->second.wrench.force), samples.back().estimate) << "nothing is known beside it";

@@ -148,7 +148,8 @@ TEST_F(TrackerFaults, FlippedQuaternionSignsAndLeadingSlashesAreHarmless) {
         auto pose = seen(bent_);
         pose.header.frame_id = count % 3 == 0 ? "/aurora" : count % 3 == 1 ? "/aurora_tip" : "";
         if (count++ % 2 == 0)
-          for (double* q : {&pose.pose.orientation.w, &pose.pose.orientation.x, &pose.pose.orientation.y, &pose.pose.orientation.z})
+          for (double* q : {&pose.pose.orientation.w, &pose.pose.orientation.x, &pose.pose.orientation.y,
+                            &pose.pose.orientation.z})
             *q = -*q;
         poses_.publish(pose);
       },

@@ -54,7 +54,9 @@ int main(int argc, char** argv) {
   ros::Publisher clock = node.advertise<rosgraph_msgs::Clock>("/clock", 10);
   ros::Publisher pressures = node.advertise<ChamberPressures>("chamber_pressures", 10);
   ros::Publisher poses = node.advertise<geometry_msgs::PoseStamped>("aurora_pose", 10);
-  if (!waitFor([&] { return clock.getNumSubscribers() > 1 && pressures.getNumSubscribers() > 0 && poses.getNumSubscribers() > 0; })) {
+  if (!waitFor([&] {
+        return clock.getNumSubscribers() > 1 && pressures.getNumSubscribers() > 0 && poses.getNumSubscribers() > 0;
+      })) {
     std::cerr << "soak_rig: stiffness_node does not subscribe\n";
     return 1;
   }
