@@ -49,6 +49,24 @@ class RecordedBag : public ::testing::Test {
     bag_.close();
     return loadRecordedBag(path_);
   }
+  // Of the file; close the bag before.
+  std::string bytes() const {
+    std::ifstream file(path_, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  void overwrite(size_t at, const std::string& bytes) const {
+    std::fstream file(path_, std::ios::binary | std::ios::in | std::ios::out);
+    file.seekp(static_cast<std::streamoff>(at));
+    file << bytes;
+  }
+  void expectRefused(const std::string& why) const {
+    try {
+      loadRecordedBag(path_);
+      ADD_FAILURE() << "it was read";
+    } catch (const ConfigurationError& error) {
+      EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
+    }
+  }
 
   std::string path_;
   rosbag::Bag bag_;
@@ -128,20 +146,26 @@ TEST_F(RecordedBag, LeavesOutAMessageThatIsDamaged) {
 // rosbag would take it, and read on.
 TEST_F(RecordedBag, OfAnotherFormatIsRefused) {
   threePoses();
-  std::fstream(path_, std::ios::binary | std::ios::in | std::ios::out) << "#ROSBOG";
-  try {
-    loadRecordedBag(path_);
-    FAIL() << "it was read";
-  } catch (const ConfigurationError& error) {
-    EXPECT_NE(std::string(error.what()).find("must be #ROSBAG V2.0"), std::string::npos) << error.what();
-  }
+  overwrite(0, "#ROSBOG");
+  expectRefused("must be #ROSBAG V2.0");
+}
+
+// rosbag would allocate as much before it looks at what is there.
+TEST_F(RecordedBag, WithAChunkOfFourGigabytesIsRefused) {
+  threePoses();
+  const std::string whole = bytes();
+  const size_t header = whole.find("compression=none");
+  ASSERT_NE(header, std::string::npos);
+  const size_t size = whole.find("size=", header);
+  ASSERT_NE(size, std::string::npos);
+  overwrite(size + 5, "\xff\xff\xff\xff");
+  expectRefused("damaged at byte " + std::to_string(header - 4));
 }
 
 // Read, or refused with a reason, whichever byte is wrong and wherever the file ends.
 TEST_F(RecordedBag, IsReadOrRefusedHoweverItIsDamaged) {
   threePoses();
-  std::ifstream file(path_, std::ios::binary);
-  const std::string whole{std::istreambuf_iterator<char>(file), {}};
+  const std::string whole = bytes();
   int read = 0, refused = 0;
   const auto load = [&](const std::string& bytes) {
     std::ofstream(path_, std::ios::binary) << bytes;
