@@ -1,6 +1,7 @@
 // latency_report: measures from pressure stamp to estimate, of a running stiffness_node or with --nodelet of one that it
 // loads into itself: until the estimate is delivered, in the queue of a subscriber, and until that subscriber's own thread
-// has it. Prints one row for each rate, for scripts/latency; with --bare-wake what it takes this machine to wake a thread.
+// has it. Prints one row for each rate, for scripts/latency. To see it against: with --bare-wake what it takes this machine
+// to wake a thread, with --echo what TCPROS takes to a node that only sends the pressures back, and from there.
 
 #include <live_stiffness/ChamberPressures.h>
 #include <live_stiffness/StiffnessEstimate.h>
@@ -54,23 +55,26 @@ class TimedQueue : public ros::CallbackQueue {
   std::deque<ros::Time> delivered_;
 };
 
-// Publishes pressures, each its own, and times the estimate of each.
+// Publishes pressures, each its own, and times the estimate of each, or the echo on topic "echo".
 class Stopwatch {
  public:
-  Stopwatch(ros::NodeHandle node, int channels)
+  Stopwatch(ros::NodeHandle node, int channels, bool is_echo)
       : channels_(channels),
+        is_echo_(is_echo),
         publisher_(node.advertise<ChamberPressures>("chamber_pressures", 1000)),
         spinner_(1, &queue_) {
     node.setCallbackQueue(&queue_);
-    subscriber_ = node.subscribe("stiffness_node/estimate", 1000, &Stopwatch::onEstimate, this,
-                                 ros::TransportHints().tcpNoDelay());
+    const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
+    subscriber_ = is_echo ? node.subscribe("echo", 1000, &Stopwatch::onEcho, this, hints)
+                          : node.subscribe("stiffness_node/estimate", 1000, &Stopwatch::onEstimate, this, hints);
     spinner_.start();
   }
 
-  bool waitForNode() const {
+  bool waitForNode() {
     const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kPatience);
     while (ros::ok() && ros::WallTime::now() < end) {
       if (publisher_.getNumSubscribers() > 0 && subscriber_.getNumPublishers() > 0) return true;
+      if (is_echo_) publish(0);  // a relay advertises by the first message
       ros::WallDuration(0.01).sleep();  // between two looks
     }
     return false;
@@ -132,10 +136,19 @@ class Stopwatch {
     const ros::Time now = ros::Time::now(), delivered = queue_.nextDelivered();
     if (message->stale || message->header.stamp == newest_) return;  // a heartbeat's
     newest_ = message->header.stamp;
-    delivered_.push_back((delivered - newest_).toSec());
-    received_.push_back((now - newest_).toSec());
     solve_time_ += message->solve_time;
     error_ = std::max(error_, message->numerical_error);
+    note(message->header.stamp, delivered, now);
+  }
+
+  void onEcho(const ChamberPressures::ConstPtr& message) {
+    const ros::Time now = ros::Time::now();
+    note(message->header.stamp, queue_.nextDelivered(), now);
+  }
+
+  void note(ros::Time sent, ros::Time delivered, ros::Time received) {
+    delivered_.push_back((delivered - sent).toSec());
+    received_.push_back((received - sent).toSec());
     ++answered_;
   }
 
@@ -149,6 +162,7 @@ class Stopwatch {
   }
 
   int channels_;
+  bool is_echo_;
   ros::Publisher publisher_;
   TimedQueue queue_;
   ros::AsyncSpinner spinner_;
@@ -171,6 +185,7 @@ int main(int argc, char** argv) {
   description.add_options()("help,h", "this text")(
       "nodelet", "load the nodelet into this process; else a running stiffness_node is measured")(
       "bare-wake", "measure, without any node, how long this machine takes to wake a waiting thread")(
+      "echo", "measure a node that sends chamber_pressures back on echo, such as topic_tools' relay")(
       "channels", options::value(&wanted.channels)->default_value(6), "pressures in a message")(
       "seconds", options::value(&wanted.seconds)->default_value(20.0), "of 40 Hz, and as fast as it goes, each")(
       "minutes", options::value(&wanted.minutes)->default_value(1.0), "of 1 kHz");
@@ -203,12 +218,14 @@ int main(int argc, char** argv) {
     std::cerr << "latency_report: the nodelet cannot be loaded\n";
     return 2;
   }
-  Stopwatch stopwatch(node, wanted.channels);
+  const bool is_echo = given.count("echo") > 0;
+  Stopwatch stopwatch(node, wanted.channels, is_echo);
   if (!stopwatch.waitForNode()) {
-    std::cerr << "latency_report: no /stiffness_node within " << kPatience << " s: start it, or use --nodelet\n";
+    std::cerr << "latency_report: no " << (is_echo ? "relay from chamber_pressures to echo" : "/stiffness_node")
+              << " within " << kPatience << " s: start it, or use --nodelet\n";
     return 2;
   }
-  const std::string transport = given.count("nodelet") ? "nodelet" : "TCPROS";
+  const std::string transport = is_echo ? "echo" : given.count("nodelet") ? "nodelet" : "TCPROS";
   stopwatch.measure(40.0, wanted.seconds, transport);
   stopwatch.measure(1000.0, 60.0 * wanted.minutes, transport);
   stopwatch.measure(0.0, wanted.seconds, transport);
