@@ -4,6 +4,7 @@
 #include <ros/init.h>
 #include <xmlrpcpp/XmlRpcException.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "live_stiffness/ros/node_graph.h"
@@ -15,6 +16,14 @@ using XmlRpc::XmlRpcValue;
 
 // Every process of roscpp has it from start to end, and only it tells a master so.
 std::string ownService() { return ros::this_node::getName() + "/get_loggers"; }
+
+constexpr int kLooks = 10;  // after which the master is asked again though nothing has changed
+
+bool areKeys(std::vector<std::string> topics, const std::map<std::string, std::string>& known) {
+  std::sort(topics.begin(), topics.end());
+  return std::equal(topics.begin(), topics.end(), known.begin(), known.end(),
+                    [](const std::string& topic, const auto& pair) { return topic == pair.first; });
+}
 
 std::map<std::string, std::string> ofThisNode(XmlRpcValue& pairs) {
   const auto names = byNode(pairs);
@@ -72,8 +81,21 @@ void MasterWatch::look() {
   is_away_ = false;
 }
 
-// What the master knows of this process.
+// Whether topics of this process, or its connections, are others than those remembered.
+bool MasterWatch::isChanged() const {
+  std::vector<std::string> advertised, subscribed;
+  ros::this_node::getAdvertisedTopics(advertised);
+  ros::this_node::getSubscribedTopics(subscribed);
+  return !areKeys(std::move(advertised), publications_) || !areKeys(std::move(subscribed), subscriptions_) ||
+         connectedPublishers(uri_) != connections_;
+}
+
+// What the master knows of this process. The whole graph, which may be large, is asked for only when it has changed here.
 void MasterWatch::remember() {
+  XmlRpcValue parameters;
+  if (askMaster("getParam", parameters, namespace_)) parameters_ = parameters;
+  if (!isChanged() && ++unchanged_ < kLooks) return;
+  unchanged_ = 0;
   XmlRpcValue uri, state, types, api;
   if (!askMaster("lookupNode", uri, ros::this_node::getName()) || !askMaster("getSystemState", state) ||
       !askMaster("getTopicTypes", types))
@@ -96,15 +118,14 @@ void MasterWatch::remember() {
   publications_ = std::move(publications);
   subscriptions_ = std::move(subscriptions);
   services_ = std::move(services);
-  XmlRpcValue parameters;
-  if (askMaster("getParam", parameters, namespace_)) parameters_ = parameters;
 }
 
 // Names of the publishers that this process is connected to. publications: pairs of getSystemState.
 void MasterWatch::rememberPublishers(XmlRpcValue& publications) {
   const auto topics = byNode(publications);
   std::map<std::string, std::string> publishers;
-  for (const auto& [topic, uri] : connectedPublishers(uri_)) {
+  connections_ = connectedPublishers(uri_);
+  for (const auto& [topic, uri] : connections_) {
     const auto known = publishers_.find(uri);
     if (known != publishers_.end()) publishers.insert(*known);
     for (auto name = topics.begin(); name != topics.end() && publishers.count(uri) == 0; ++name) {

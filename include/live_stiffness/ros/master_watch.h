@@ -17,6 +17,7 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 namespace live_stiffness {
 
@@ -32,6 +33,7 @@ class MasterWatch {
  private:
   void run();
   void look();
+  bool isChanged() const;
   void remember();
   void rememberPublishers(XmlRpc::XmlRpcValue& publications);
   void registerAnew();
@@ -43,6 +45,8 @@ class MasterWatch {
   std::map<std::string, std::string> publishers_;                 // that it is connected to: name by URI
   std::map<std::string, std::string> publications_, subscriptions_;  // type by topic
   std::map<std::string, std::string> services_;                   // URI by service
+  std::vector<std::pair<std::string, std::string>> connections_;  // topic and URI of who publishes it
+  int unchanged_ = 0;                                             // looks since all of that was asked for
   XmlRpc::XmlRpcValue parameters_;
   bool is_away_ = false;
 
