@@ -8,7 +8,7 @@ import sys
 
 ROWS, BUILD = sys.argv[1:3]
 TARGETS_US = {"TCPROS": 1000.0, "nodelet": 200.0}  # of the 99th percentile
-DRAWN, BARE_WAKE, ECHO = " drawn", "bare wake", "echo"
+DRAWN, PINNED, BARE_WAKE, ECHO = "drawn", "pinned", "bare wake", "echo"
 # median to max: received
 COLUMNS = "transport rate reached sent lost delivered delivered_p99 delivered_p999 median p99 p999 max solve error stolen".split()
 
@@ -27,12 +27,14 @@ def main():
     with open(ROWS) as file:
         lines = list(csv.reader(file))
     measured = [dict(zip(COLUMNS, line)) for line in lines if line[0] != BARE_WAKE]
-    rows = [row for row in measured if row["transport"] != ECHO]
-    echoes = {row["rate"]: row for row in measured if row["transport"] == ECHO}
+    for row in measured:
+        row["kind"], _, row["label"] = row["transport"].partition(" ")
+    rows = [row for row in measured if row["kind"] != ECHO]
+    echoes = {(row["label"], row["rate"]): float(row["delivered_p99"]) for row in measured if row["kind"] == ECHO}
     wakes = {float(line[1]): tuple(map(float, line[2:])) for line in lines if line[0] == BARE_WAKE}
     with open(BUILD + "/CMakeCache.txt") as cache:
         build_type = re.search(r"CMAKE_BUILD_TYPE:\w+=(\w*)", cache.read()).group(1)
-    drawn = [row for row in rows if row["transport"].endswith(DRAWN)]
+    drawn = [row for row in rows if row["label"] == DRAWN]
     if drawn:
         print("# Latency while markers are drawn\n\nWritten by `scripts/latency --drawn`, how long is in the table (`--minutes`, "
               "`--seconds`); [latency.md](latency.md) has longer\nruns without.")
@@ -51,23 +53,25 @@ def main():
         for rate, wake in sorted(wakes.items())) +
           ".\n*Stolen*: processor time that this machine wanted and its host gave to others, of all processors together "
           "(`/proc/stat`). It is in\nthe tails, of the node as of the bare wakes. *Echo*: `topic_tools relay` in place of the node, which sends the "
-          "pressures back as\nthey are: what TCPROS and this machine take to a node that does nothing, and from there.\n")
+          "pressures back as\nthey are: what TCPROS and this machine take to a node that does nothing, and from there."
+          + ("" if drawn else "\n*Pinned*: all that takes part on one processor (`taskset`, see [reference](reference.md)): what one "
+             "thread hands to the next\nneeds no other processor, which would have to wake first.") + "\n")
     print("| transport | asked | reached, Hz | sent | lost | delivered: median, us | p99, us | p99.9, us | received: median, us | p99, us | "
           "p99.9, us | max, us | mean solve, us | delivered / solve | largest estimated error | stolen, ms/s |\n" + "|---" * 16 + "|")
     for row in measured:
-        solved = ("| | |" if row["transport"] == ECHO else "| %s | %.1f | %s" % (
+        solved = ("| | |" if row["kind"] == ECHO else "| %s | %.1f | %s" % (
             row["solve"], float(row["delivered"]) / float(row["solve"]), row["error"]))
         print("| %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s %s | %s |" % (
             row["transport"], asked(row), row["reached"], row["sent"], row["lost"], row["delivered"], row["delivered_p99"],
             row["delivered_p999"], row["median"], row["p99"], row["p999"], row["max"], solved, row["stolen"]))
     print("\n| target | measured | |\n|---|---|---|")
     for row in rows:
-        limit, p99 = TARGETS_US[row["transport"].split()[0]], float(row["delivered_p99"])
+        limit, p99 = TARGETS_US[row["kind"]], float(row["delivered_p99"])
         wake, times = wakes.get(float(row["rate"])), ""
-        if row["transport"].startswith("TCPROS"):
-            echo = float(echoes[row["rate"]]["delivered_p99"])
+        if (row["label"], row["rate"]) in echoes and row["kind"] == "TCPROS":
+            echo = echoes[row["label"], row["rate"]]
             times = ", %.2f of an echo's %.1f us" % (p99 / echo, echo)
-        elif wake:
+        elif wake and row["label"] != PINNED:
             times = ", %.1f bare wakes" % (p99 / wake[1])
         print("| %s, %s: p99 of delivered below %g us | %.1f us%s (received: %s us) | %s |" % (
             row["transport"], asked(row), limit, p99, times, row["p99"], "met" if p99 < limit else "**missed**"))
