@@ -53,7 +53,7 @@ def main():
         for rate, wake in sorted(wakes.items())) +
           ".\n*Stolen*: processor time that this machine wanted and its host gave to others, of all processors together "
           "(`/proc/stat`). It is in\nthe tails, of the node as of the bare wakes. *Echo*: `topic_tools relay` in place of the node, which sends the "
-          "pressures back as\nthey are: what TCPROS and this machine take to a node that does nothing, and from there."
+          "pressures back as\nthey are: what TCPROS and this machine take to a node that does nothing, and from there. (Its queues hold ten messages.)"
           + ("" if drawn else "\n*Pinned*: all that takes part on one processor (`taskset`, see [reference](reference.md)): what one "
              "thread hands to the next\nneeds no other processor, which would have to wake first.") + "\n")
     print("| transport | asked | reached, Hz | sent | lost | delivered: median, us | p99, us | p99.9, us | received: median, us | p99, us | "
