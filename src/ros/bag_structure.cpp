@@ -2,6 +2,8 @@
 
 #include <boost/interprocess/file_mapping.hpp>
 #include <boost/interprocess/mapped_region.hpp>
+#include <rosbag/exceptions.h>
+#include <rosbag/stream.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -10,6 +12,7 @@
 #include <map>
 #include <set>
 #include <string_view>
+#include <vector>
 
 #include "live_stiffness/checks.h"
 
@@ -17,7 +20,7 @@ namespace live_stiffness {
 namespace {
 
 constexpr std::string_view kVersion = "#ROSBAG V2.0\n";
-constexpr char kBagHeader = 3, kIndex = 4, kChunk = 5, kChunkInfo = 6, kConnection = 7;  // op codes of records
+constexpr char kDefinition = 1, kBagHeader = 3, kIndex = 4, kChunk = 5, kChunkInfo = 6, kConnection = 7;  // op codes
 constexpr size_t kEntry = 12, kTime = 8;  // bytes of an entry of the index: time, offset
 constexpr uint32_t kLargestChunk = 1u << 30;  // bytes, unpacked; usually less than a million
 
@@ -46,27 +49,67 @@ void checkFields(std::string_view header) {
   while (!header.empty()) takeBlock(header);
 }
 
-// Of a record's header, which is blocks of "name=value".
-std::string_view fieldOf(std::string_view header, std::string_view name) {
-  const char* begin = header.data();
+// Of a record's header, which is blocks of "name=value". Null data: it has none.
+std::string_view findField(std::string_view header, std::string_view name) {
   while (!header.empty()) {
     const std::string_view field = takeBlock(header);
     if (field.size() > name.size() && field[name.size()] == '=' && field.substr(0, name.size()) == name)
       return field.substr(name.size() + 1);
   }
-  throw Damage{begin};
+  return {};
 }
 
-// Every message that the index names lies within the chunk. chunk: empty if it is compressed, which has sums, or
-// encrypted.
+std::string_view fieldOf(std::string_view header, std::string_view name) {
+  const std::string_view value = findField(header, name);
+  if (value.data() == nullptr) throw Damage{header.data()};
+  return value;
+}
+
+char opOf(std::string_view header) {
+  const std::string_view op = fieldOf(header, "op");
+  if (op.size() != 1) throw Damage{header.data()};
+  return op[0];
+}
+
+// What rosbag would make of a chunk. Where it does not fill `size` bytes they are 0xff: no length that is believed.
+std::vector<char> unpacked(std::string_view chunk, rosbag::CompressionType compression, uint32_t size) {
+  std::vector<char> bytes(size, '\xff');
+  std::string packed(chunk);
+  try {
+    rosbag::StreamFactory(nullptr).getStream(compression)->decompress(
+        reinterpret_cast<uint8_t*>(bytes.data()), size, reinterpret_cast<uint8_t*>(packed.data()),
+        static_cast<uint32_t>(packed.size()));
+  } catch (const rosbag::BagException&) {
+    throw Damage{chunk.data()};
+  }
+  return bytes;
+}
+
+// What is read for an entry of the index, as rosbag does it: over what describes connections, up to a message.
+void checkMessage(std::string_view bytes) {
+  char op;
+  uint32_t size;
+  do {
+    const std::string_view header = takeBlock(bytes);
+    checkFields(header);
+    op = opOf(header);
+    size = numberAt(bytes, 0);
+    bytes.remove_prefix(sizeof size);
+  } while (op == kConnection || op == kDefinition);
+  if (size > bytes.size() && size <= kLargestMessage) throw Damage{bytes.data()};
+}
+
+// Every message that the index names lies within the chunk. chunk: unpacked; empty if it is encrypted.
 void checkIndex(std::string_view entries, std::string_view chunk, uint32_t chunk_size) {
   for (size_t entry = 0; entry + kEntry <= entries.size(); entry += kEntry) {
     const uint32_t offset = numberAt(entries, entry + kTime);
     if (offset >= chunk_size) throw Damage{entries.data() + entry};
     if (chunk.empty()) continue;
-    std::string_view message = chunk.substr(offset);
-    checkFields(takeBlock(message));
-    if (numberAt(message, 0) <= kLargestMessage) takeBlock(message);
+    try {
+      checkMessage(chunk.substr(offset));
+    } catch (const Damage&) {
+      throw Damage{entries.data() + entry};  // the chunk may be elsewhere than in the file
+    }
   }
 }
 
@@ -81,24 +124,37 @@ uint64_t placeOf(std::string_view header, std::string_view name) {
 void checkRecords(std::string_view file) {
   std::string_view bytes = file.substr(kVersion.size()), chunk;
   uint32_t chunk_size = 0;
+  bool is_encrypted = false;
+  std::vector<char> storage;  // of a chunk that was compressed
   std::set<uint64_t> records, chunks;                        // where they begin
   std::map<uint64_t, const char*> said_records, said_chunks;  // where the bag says that they do, and where it says so
   while (!bytes.empty()) {
     const uint64_t place = bytes.data() - file.data();
-    const std::string_view header = takeBlock(bytes), data = takeBlock(bytes), op = fieldOf(header, "op");
-    if (op.size() != 1) throw Damage{header.data()};
+    const std::string_view header = takeBlock(bytes), data = takeBlock(bytes);
     checkFields(header);
     records.insert(place);
-    switch (op[0]) {
-      case kBagHeader: said_records[placeOf(header, "index_pos")] = header.data(); break;
+    switch (opOf(header)) {
+      case kBagHeader: {
+        said_records[placeOf(header, "index_pos")] = header.data();
+        const std::string_view encryptor = findField(header, "encryptor");
+        is_encrypted = !encryptor.empty() && encryptor != "rosbag/NoEncryptor";
+        break;
+      }
       case kChunkInfo: said_chunks[placeOf(header, "chunk_pos")] = header.data(); break;
       case kChunk: {
         chunks.insert(place);
-        const bool is_plain = fieldOf(header, "compression") == "none";
+        const std::string_view compression = fieldOf(header, "compression");
         chunk_size = numberOf(header, "size");
         if (chunk_size > kLargestChunk) throw Damage{header.data()};
-        if (is_plain) chunk_size = std::min<size_t>(chunk_size, data.size());
-        chunk = is_plain && data.size() == chunk_size ? data : std::string_view();
+        if (compression == "none") chunk_size = std::min<size_t>(chunk_size, data.size());
+        if (is_encrypted) {
+          chunk = {};
+        } else if (compression == "bz2" || compression == "lz4") {
+          storage = unpacked(data, compression == "bz2" ? rosbag::compression::BZ2 : rosbag::compression::LZ4, chunk_size);
+          chunk = {storage.data(), storage.size()};
+        } else {
+          chunk = data.substr(0, chunk_size);
+        }
         break;
       }
       case kIndex:

@@ -162,6 +162,23 @@ TEST_F(RecordedBag, WithAChunkOfFourGigabytesIsRefused) {
   expectRefused("damaged at byte " + std::to_string(header - 4));
 }
 
+// The sums of a compressed chunk say nothing of the index behind it.
+TEST_F(RecordedBag, WhoseIndexPointsElsewhereInACompressedChunkIsRefused) {
+  for (const rosbag::CompressionType compression : {rosbag::compression::BZ2, rosbag::compression::LZ4}) {
+    bag_.close();
+    bag_.open(path_, rosbag::bagmode::Write);
+    bag_.setCompression(compression);
+    threePoses();
+    EXPECT_EQ(loadRecordedBag(path_).samples.size(), 3u) << "as it was";
+    const std::string version("ver=\x01\0\0\0", 8), whole = bytes();
+    const size_t index = whole.find(version, whole.find("compression="));
+    ASSERT_NE(index, std::string::npos);
+    const size_t entry = index + version.size() + 4, offset = entry + 8;
+    overwrite(offset, std::string(1, static_cast<char>(whole[offset] + 3)));
+    expectRefused("damaged at byte " + std::to_string(entry));
+  }
+}
+
 // Read, or refused with a reason, whichever byte is wrong and wherever the file ends.
 TEST_F(RecordedBag, IsReadOrRefusedHoweverItIsDamaged) {
   threePoses();
