@@ -14,10 +14,10 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
+constexpr int kLooks = 10;  // after which the master is asked again though nothing has changed
+
 // Every process of roscpp has it from start to end, and only it tells a master so.
 std::string ownService() { return ros::this_node::getName() + "/get_loggers"; }
-
-constexpr int kLooks = 10;  // after which the master is asked again though nothing has changed
 
 bool areKeys(std::vector<std::string> topics, const std::map<std::string, std::string>& known) {
   std::sort(topics.begin(), topics.end());

@@ -24,7 +24,8 @@ namespace live_stiffness {
 class MasterWatch {
  public:
   // parameters: namespace of those to bring back. Looks once a second, in a thread of its own: a master on a computer that
-  // is off makes one wait.
+  // is off makes one wait. Asks for the whole graph when topics or connections of this process have changed, and every ten
+  // seconds.
   explicit MasterWatch(std::string parameters = ros::this_node::getName())
       : namespace_(std::move(parameters)), thread_([this] { run(); }) {}
   ~MasterWatch();
