@@ -81,7 +81,7 @@ TEST(Contact, ForceOfTwoPushesIsEstimatedAndReportedDuringThemAlone) {
   std::printf("%s\n", score.text().c_str());
   EXPECT_EQ(score.pushes, 2);
   // Over the compliance of some 0.02 m/N: creep and regulator error, 5 % of 60 kPa and 1 kPa, move the tip by about 1 mm,
-  // 0.05 N; and in the first 0.2 s of a push, before it is known for one, the estimate trails.
+  // 0.05 N, more while pressures are high; and a node that starts late has seen less of the robot before the first push.
   EXPECT_LT(score.rms, 0.1);
   EXPECT_NEAR(score.peak, score.peak_truth, 0.15);
   EXPECT_GT(score.seen, 0.98);
