@@ -29,7 +29,11 @@ std::vector<Station> sampleBackbone(const StiffnessModel& model, const Stiffness
 StiffnessEstimator::StiffnessEstimator(Scene scene, const ModelOptions& model_options, EstimatorOptions options)
     : model_(std::move(scene), model_options), options_(checked(std::move(options))),
       workspace_(model_.makeWorkspace()), plans_(model_.scene().segmentCount(), StationPlan(options_.fractions)),
-      creep_(model_.scene()) {}
+      creep_(model_.scene()) {
+  // The first solve of a process also waits for memory and code that were never touched: not when pressures wait for it.
+  StiffnessWorkspace workspace = model_.makeWorkspace();
+  model_.solve(Pressures::Zero(model_.scene().chamberCount()), Wrench::Zero(), workspace);
+}
 
 StiffnessEstimator::Outcome StiffnessEstimator::setPressures(PressuresRef pressures, double time) {
   // What the solver will refuse must not get into the creep's memory.
