@@ -8,7 +8,7 @@ import sys
 
 ROWS, BUILD = sys.argv[1:3]
 TARGETS_US = {"TCPROS": 1000.0, "nodelet": 200.0}  # of the 99th percentile
-DRAWN, PINNED, BARE_WAKE, ECHO = "drawn", "pinned", "bare wake", "echo"
+DRAWN, BARE_WAKE, ECHO = "drawn", "bare wake", "echo"
 # median to max: received
 COLUMNS = "transport rate reached sent lost delivered delivered_p99 delivered_p999 median p99 p999 max solve error stolen".split()
 
@@ -35,6 +35,7 @@ def main():
     with open(BUILD + "/CMakeCache.txt") as cache:
         build_type = re.search(r"CMAKE_BUILD_TYPE:\w+=(\w*)", cache.read()).group(1)
     drawn = [row for row in rows if row["label"] == DRAWN]
+    awake = any(row["label"].startswith("awake") for row in rows)
     if drawn:
         print("# Latency while markers are drawn\n\nWritten by `scripts/latency --drawn`, how long is in the table (`--minutes`, "
               "`--seconds`); [latency.md](latency.md) has longer\nruns without.")
@@ -45,9 +46,9 @@ def main():
           "it is\nin a subscriber's queue (in the same process, as a nodelet), and *received*, when that subscriber's own thread, "
           "which the system\nhas to wake first, has it in hand. Every message is solved (`paper_one_segment.yaml`, NCM, accuracy "
           "1e-9). Back to the\n[reference](reference.md).\n")
-    print("Machine: %s, Linux %s, no real-time priority. Build: %s.\n"
+    print("Machine: %s, Linux %s, no real-time priority%s. Build: %s.\n"
           "Load average when this was written: %.1f; with more than 1 or so, other work shared the processors, and the tails are its.\n"
-          % (processor(), platform.release(), build_type, os.getloadavg()[0]))
+          % (processor(), platform.release(), " but where it says *awake*" if awake else "", build_type, os.getloadavg()[0]))
     print("Just before, on this machine, with no node: a thread that waits is woken in " + "; ".join(
         "%.0f us at %g Hz (p99 %.0f, p99.9 %.0f; stolen %.1f ms/s)" % (wake[0], rate, *wake[1:])
         for rate, wake in sorted(wakes.items())) +
@@ -55,7 +56,9 @@ def main():
           "(`/proc/stat`). It is in\nthe tails, of the node as of the bare wakes. *Echo*: `topic_tools relay` in place of the node, which sends the "
           "pressures back as\nthey are: what TCPROS and this machine take to a node that does nothing, and from there. (Its queues hold ten messages.)"
           + ("" if drawn else "\n*Pinned*: all that takes part on one processor (`taskset`, see [reference](reference.md)): what one "
-             "thread hands to the next\nneeds no other processor, which would have to wake first.") + "\n")
+             "thread hands to the next\nneeds no other processor, which would have to wake first.") +
+          ("\n*Awake*: processors kept from idling (`rosrun live_stiffness keep_awake`), and all that takes part with real-time "
+           "priority\n(`chrt --rr 10`), driver and subscriber included." if awake else "") + "\n")
     print("| transport | asked | reached, Hz | sent | lost | delivered: median, us | p99, us | p99.9, us | received: median, us | p99, us | "
           "p99.9, us | max, us | mean solve, us | delivered / solve | largest estimated error | stolen, ms/s |\n" + "|---" * 16 + "|")
     for row in measured:
@@ -71,7 +74,7 @@ def main():
         if (row["label"], row["rate"]) in echoes and row["kind"] == "TCPROS":
             echo = echoes[row["label"], row["rate"]]
             times = ", %.2f of an echo's %.1f us" % (p99 / echo, echo)
-        elif wake and row["label"] != PINNED:
+        elif wake and row["label"] in ("", DRAWN):  # the bare wakes were as these were
             times = ", %.1f bare wakes" % (p99 / wake[1])
         print("| %s, %s: p99 of delivered below %g us | %.1f us%s (received: %s us) | %s |" % (
             row["transport"], asked(row), limit, p99, times, row["p99"], "met" if p99 < limit else "**missed**"))

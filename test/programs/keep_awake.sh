@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# keep_awake runs one loop of the lowest class on each processor, and none is left when it ends, however. KEEP_AWAKE
+set -euo pipefail
+log=$(mktemp)
+keeper=''
+trap 'kill $keeper 2>/dev/null || true; rm -f "$log"' EXIT
+
+fail() { echo "$1"; cat "$log"; exit 1; }
+# MESSAGE COMMAND...: waits until COMMAND succeeds, 20 s at most.
+await() {
+  local message=$1 end=$((SECONDS + 20))
+  shift
+  until "$@"; do
+    [ $SECONDS -lt $end ] || fail "not within 20 s: $message"
+    sleep 0.05  # between two looks
+  done
+}
+all_gone() { ! kill -0 $loops 2>/dev/null; }
+on_each_processor() { [ "$(ps -o psr= -p "${loops// /,}" | sort -u | wc -l)" = "$(nproc)" ]; }
+
+for signal in TERM KILL; do
+  "$1" --loops >"$log" 2>&1 &
+  keeper=$!
+  await "says what it does" grep -q 'loops on processors' "$log"
+  loops=$(pgrep -P $keeper | tr '\n' ' ')
+  loops=${loops% }
+  [ "$(wc -w <<<"$loops")" = "$(nproc)" ] || fail "not $(nproc) loops: $loops"
+  await "one on each processor" on_each_processor
+  [ "$(ps -o cls= -p "${loops// /,}" | sort -u | tr -d ' ')" = IDL ] || fail "not of the lowest class"
+  kill -$signal $keeper
+  wait $keeper || true
+  await "no loop is left after SIG$signal" all_gone
+done
