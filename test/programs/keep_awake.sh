@@ -19,7 +19,7 @@ all_gone() { ! kill -0 $loops 2>/dev/null; }
 on_each_processor() { [ "$(ps -o psr= -p "${loops// /,}" | sort -u | wc -l)" = "$(nproc)" ]; }
 
 for signal in TERM KILL; do
-  "$1" --loops >"$log" 2>&1 &
+  /usr/bin/python3 "$1" --loops >"$log" 2>&1 &
   keeper=$!
   await "says what it does" grep -q 'loops on processors' "$log"
   loops=$(pgrep -P $keeper | tr '\n' ' ')
