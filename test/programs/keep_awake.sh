@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# keep_awake runs one loop of the lowest class on each processor, and none is left when it ends, however. KEEP_AWAKE
+# keep_awake runs one loop of the lowest class (SCHED_IDLE) on each processor, and none is left when it ends, however. KEEP_AWAKE
 set -euo pipefail
 log=$(mktemp)
 keeper=''
@@ -19,7 +19,7 @@ all_gone() { ! kill -0 $loops 2>/dev/null; }
 on_each_processor() { [ "$(ps -o psr= -p "${loops// /,}" | sort -u | wc -l)" = "$(nproc)" ]; }
 
 for signal in TERM KILL; do
-  /usr/bin/python3 "$1" --loops >"$log" 2>&1 &
+  /usr/bin/python3 "$1" --loops __name:=keep_awake >"$log" 2>&1 &
   keeper=$!
   await "says what it does" grep -q 'loops on processors' "$log"
   loops=$(pgrep -P $keeper | tr '\n' ' ')
