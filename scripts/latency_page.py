@@ -58,8 +58,8 @@ def main():
           + ("" if drawn else "\n*Pinned*: all that takes part on one processor (`taskset`, see [reference](reference.md)): what one "
              "thread hands to the next\nneeds no other processor, which would have to wake first.") +
           ("\n*Awake*: processors kept from idling (`rosrun live_stiffness keep_awake`), and all that takes part with real-time "
-           "priority\n(`chrt --rr 10`), driver and subscriber included. Threads of such priority that never rest are held back by the "
-           "kernel for 50 ms of\neach second (`sched_rt_runtime_us`): hence the maxima of *as fast as it goes*." if awake else "") + "\n")
+           "priority\n(`chrt --rr 10`), driver and subscriber included. From threads of such priority that never rest the kernel still "
+           "takes 50 ms of each\nsecond for the others: hence the maxima of *as fast as it goes*." if awake else "") + "\n")
     print("| transport | asked | reached, Hz | sent | lost | delivered: median, us | p99, us | p99.9, us | received: median, us | p99, us | "
           "p99.9, us | max, us | mean solve, us | delivered / solve | largest estimated error | stolen, ms/s |\n" + "|---" * 16 + "|")
     for row in measured:
