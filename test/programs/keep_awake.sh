@@ -16,17 +16,18 @@ await() {
   done
 }
 all_gone() { ! kill -0 $loops 2>/dev/null; }
-on_each_processor() { [ "$(ps -o psr= -p "${loops// /,}" | sort -u | wc -l)" = "$(nproc)" ]; }
+processors() { for loop in $loops; do taskset --cpu-list --pid $loop; done | sed 's/.*: //' | sort -u; }
+on_each_processor() { [ "$(processors | wc -l)" = "$(nproc)" ]; }
+all_idle_class() { for loop in $loops; do chrt --pid $loop | grep -q SCHED_IDLE || return 1; done; }
 
 for signal in TERM KILL; do
   /usr/bin/python3 "$1" --loops __name:=keep_awake >"$log" 2>&1 &
   keeper=$!
   await "says what it does" grep -q 'loops on processors' "$log"
-  loops=$(pgrep -P $keeper | tr '\n' ' ')
-  loops=${loops% }
+  loops=$(cat /proc/$keeper/task/$keeper/children)
   [ "$(wc -w <<<"$loops")" = "$(nproc)" ] || fail "not $(nproc) loops: $loops"
   await "one on each processor" on_each_processor
-  [ "$(ps -o cls= -p "${loops// /,}" | sort -u | tr -d ' ')" = IDL ] || fail "not of the lowest class"
+  await "of the lowest class" all_idle_class
   kill -$signal $keeper
   wait $keeper || true
   await "no loop is left after SIG$signal" all_gone
