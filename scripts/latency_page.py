@@ -47,8 +47,9 @@ def main():
           "which the system\nhas to wake first, has it in hand. Every message is solved (`paper_one_segment.yaml`, NCM, accuracy "
           "1e-9). Back to the\n[reference](reference.md).\n")
     print("Machine: %s, Linux %s, no real-time priority%s. Build: %s.\n"
-          "Load average when this was written: %.1f; with more than 1 or so, other work shared the processors, and the tails are its.\n"
-          % (processor(), platform.release(), " but where it says *awake*" if awake else "", build_type, os.getloadavg()[0]))
+          "Load average when this was written: %.1f; with more than 1 or so, other work shared the processors, and the tails are its%s.\n"
+          % (processor(), platform.release(), " but where it says *awake*" if awake else "", build_type, os.getloadavg()[0],
+             " (but for the\nloops of `keep_awake`, measured last, and what took part with them)" if awake else ""))
     print("Just before, on this machine, with no node: a thread that waits is woken in " + "; ".join(
         "%.0f us at %g Hz (p99 %.0f, p99.9 %.0f; stolen %.1f ms/s)" % (wake[0], rate, *wake[1:])
         for rate, wake in sorted(wakes.items())) +

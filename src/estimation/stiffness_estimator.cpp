@@ -30,7 +30,7 @@ StiffnessEstimator::StiffnessEstimator(Scene scene, const ModelOptions& model_op
     : model_(std::move(scene), model_options), options_(checked(std::move(options))),
       workspace_(model_.makeWorkspace()), plans_(model_.scene().segmentCount(), StationPlan(options_.fractions)),
       creep_(model_.scene()) {
-  // The first solve of a process also waits for memory and code that were never touched: not when pressures wait for it.
+  // In a workspace of its own: what comes first is still solved from rest.
   StiffnessWorkspace workspace = model_.makeWorkspace();
   model_.solve(Pressures::Zero(model_.scene().chamberCount()), Wrench::Zero(), workspace);
 }

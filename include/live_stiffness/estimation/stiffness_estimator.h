@@ -36,7 +36,8 @@ class StiffnessEstimator {
  public:
   enum class Outcome { kUnchanged, kSolved, kFailed };
 
-  // Throws ConfigurationError on bad options or scene.
+  // Throws ConfigurationError on bad options or scene. Solves once at rest, so that the first estimate does not have to wait
+  // for memory and code that were never touched.
   StiffnessEstimator(Scene scene, const ModelOptions& model_options, EstimatorOptions options);
 
   // New pressures at `time` (s): solves if what they come to after creep moved by more than the threshold since the last
