@@ -1,4 +1,4 @@
-#include "live_stiffness/gauss_legendre.h"
+#include "gauss_legendre.h"
 
 #include <array>
 #include <cmath>

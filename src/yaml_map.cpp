@@ -1,4 +1,4 @@
-#include "live_stiffness/yaml_map.h"
+#include "yaml_map.h"
 
 #include <yaml-cpp/eventhandler.h>
 

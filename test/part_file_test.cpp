@@ -1,4 +1,4 @@
-#include "live_stiffness/part_file.h"
+#include "part_file.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "live_stiffness/analysis/pressure_plan.h"
+#include "analysis/pressure_plan.h"
 
 
 #include "live_stiffness/checks.h"

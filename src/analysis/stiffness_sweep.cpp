@@ -1,4 +1,4 @@
-#include "live_stiffness/analysis/stiffness_sweep.h"
+#include "analysis/stiffness_sweep.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/task_arena.h>

@@ -1,4 +1,4 @@
-#include "live_stiffness/calibration/calibration.h"
+#include "calibration/calibration.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,4 +1,4 @@
-#include "live_stiffness/calibration/calibration_report.h"
+#include "calibration/calibration_report.h"
 
 #include <algorithm>
 #include <cmath>

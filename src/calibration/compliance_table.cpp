@@ -1,4 +1,4 @@
-#include "live_stiffness/calibration/compliance_table.h"
+#include "calibration/compliance_table.h"
 
 #include <algorithm>
 #include <sstream>

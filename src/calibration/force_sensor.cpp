@@ -1,4 +1,4 @@
-#include "live_stiffness/calibration/force_sensor.h"
+#include "calibration/force_sensor.h"
 
 #include <ceres/jet.h>
 

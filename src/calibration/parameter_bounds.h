@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "live_stiffness/calibration/scene_parameter.h"
+#include "calibration/scene_parameter.h"
 
 namespace live_stiffness {
 

@@ -1,7 +1,7 @@
 #pragma once
 // A scene whose numbers may carry derivatives, and how the parameters of a calibration act on it.
 
-#include "live_stiffness/calibration/scene_parameter.h"
+#include "calibration/scene_parameter.h"
 #include "live_stiffness/rod/scene.h"
 
 namespace live_stiffness {

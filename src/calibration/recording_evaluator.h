@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "calibration/calibration_unknowns.h"
-#include "live_stiffness/calibration/calibration.h"
+#include "calibration/calibration.h"
 
 namespace live_stiffness {
 

@@ -1,4 +1,4 @@
-#include "live_stiffness/calibration/scene_parameter.h"
+#include "calibration/scene_parameter.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
-#include "live_stiffness/calibration/scene_text.h"
+#include "calibration/scene_text.h"
 
 #include <iomanip>
 #include <locale>
 #include <sstream>
 
 #include "live_stiffness/checks.h"
-#include "live_stiffness/part_file.h"
+#include "part_file.h"
 
 namespace live_stiffness {
 namespace {

@@ -1,4 +1,4 @@
-#include "live_stiffness/calibration/tip_predictor.h"
+#include "calibration/tip_predictor.h"
 
 #include <ceres/jet.h>
 

@@ -1,6 +1,6 @@
-#include "live_stiffness/compliance/material_compliance.h"
+#include "compliance/material_compliance.h"
 
-#include "live_stiffness/rod/shooting.h"
+#include "rod/shooting.h"
 
 namespace live_stiffness {
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "live_stiffness/checks.h"
-#include "live_stiffness/compliance/material_compliance.h"
+#include "compliance/material_compliance.h"
 
 namespace live_stiffness {
 

@@ -1,4 +1,4 @@
-#include "live_stiffness/estimation/contact_score.h"
+#include "estimation/contact_score.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <locale>
 #include <sstream>
 
-#include "live_stiffness/estimation/interpolation.h"
+#include "estimation/interpolation.h"
 
 namespace live_stiffness {
 namespace {

@@ -1,4 +1,4 @@
-#include "live_stiffness/estimation/motion_history.h"
+#include "estimation/motion_history.h"
 
 #include <algorithm>
 #include <iterator>

@@ -3,8 +3,8 @@
 #include <locale>
 #include <sstream>
 
-#include "live_stiffness/part_file.h"
-#include "live_stiffness/yaml_map.h"
+#include "part_file.h"
+#include "yaml_map.h"
 
 namespace live_stiffness {
 namespace {

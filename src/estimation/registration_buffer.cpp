@@ -1,4 +1,4 @@
-#include "live_stiffness/estimation/registration_buffer.h"
+#include "estimation/registration_buffer.h"
 
 #include <algorithm>
 #include <cstdio>

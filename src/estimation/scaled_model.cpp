@@ -1,8 +1,8 @@
-#include "live_stiffness/estimation/scaled_model.h"
+#include "estimation/scaled_model.h"
 
 #include <cmath>
 
-#include "live_stiffness/estimation/tip_force.h"
+#include "estimation/tip_force.h"
 
 namespace live_stiffness {
 namespace {

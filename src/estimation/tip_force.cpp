@@ -1,4 +1,4 @@
-#include "live_stiffness/estimation/tip_force.h"
+#include "estimation/tip_force.h"
 
 #include <Eigen/LU>
 

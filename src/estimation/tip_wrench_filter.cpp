@@ -1,4 +1,4 @@
-#include "live_stiffness/estimation/tip_wrench_filter.h"
+#include "estimation/tip_wrench_filter.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

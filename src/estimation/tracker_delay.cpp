@@ -1,9 +1,9 @@
-#include "live_stiffness/estimation/tracker_delay.h"
+#include "estimation/tracker_delay.h"
 
 #include <cmath>
 
 #include "live_stiffness/checks.h"
-#include "live_stiffness/estimation/interpolation.h"
+#include "estimation/interpolation.h"
 
 namespace live_stiffness {
 namespace {

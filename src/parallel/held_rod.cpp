@@ -1,10 +1,10 @@
-#include "live_stiffness/parallel/held_rod.h"
+#include "parallel/held_rod.h"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-#include "live_stiffness/compliance/material_compliance.h"
+#include "compliance/material_compliance.h"
 
 namespace live_stiffness {
 namespace {

@@ -1,10 +1,10 @@
-#include "live_stiffness/parallel/parallel_statics.h"
+#include "parallel/parallel_statics.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
-#include "live_stiffness/parallel/platform_guess.h"
+#include "parallel/platform_guess.h"
 
 namespace live_stiffness {
 namespace {

@@ -1,9 +1,9 @@
-#include "live_stiffness/parallel/platform_guess.h"
+#include "parallel/platform_guess.h"
 
 #include <Eigen/Cholesky>
 #include <cmath>
 
-#include "live_stiffness/gauss_legendre.h"
+#include "gauss_legendre.h"
 
 namespace live_stiffness {
 namespace {

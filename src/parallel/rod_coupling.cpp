@@ -1,4 +1,4 @@
-#include "live_stiffness/parallel/rod_coupling.h"
+#include "parallel/rod_coupling.h"
 
 #include <Eigen/LU>
 #include <algorithm>

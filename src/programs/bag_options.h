@@ -5,7 +5,7 @@
 #include <string>
 
 #include "live_stiffness/checks.h"
-#include "live_stiffness/ros/bag_format.h"
+#include "ros/bag_format.h"
 
 namespace live_stiffness {
 

@@ -7,12 +7,12 @@
 #include <optional>
 
 #include "force_sensor_options.h"
-#include "live_stiffness/calibration/calibration.h"
-#include "live_stiffness/calibration/calibration_report.h"
-#include "live_stiffness/calibration/scene_text.h"
+#include "calibration/calibration.h"
+#include "calibration/calibration_report.h"
+#include "calibration/scene_text.h"
 #include "live_stiffness/checks.h"
-#include "live_stiffness/estimation/tracker_delay.h"
-#include "live_stiffness/part_file.h"
+#include "estimation/tracker_delay.h"
+#include "part_file.h"
 #include "live_stiffness/rod/scene_file.h"
 #include "recording_reader.h"
 #include "progress_bar.h"

@@ -9,11 +9,11 @@
 #include <sstream>
 
 #include "force_sensor_options.h"
-#include "live_stiffness/calibration/calibration.h"
-#include "live_stiffness/estimation/contact_score.h"
-#include "live_stiffness/estimation/tracker_delay.h"
+#include "calibration/calibration.h"
+#include "estimation/contact_score.h"
+#include "estimation/tracker_delay.h"
 #include "live_stiffness/estimation/tip_wrench_estimator.h"
-#include "live_stiffness/part_file.h"
+#include "part_file.h"
 #include "live_stiffness/rod/scene_file.h"
 #include "recording_reader.h"
 

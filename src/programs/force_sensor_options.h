@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "live_stiffness/calibration/force_sensor.h"
+#include "calibration/force_sensor.h"
 
 namespace live_stiffness {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "live_stiffness/analysis/pressure_plan.h"
+#include "analysis/pressure_plan.h"
 #include "live_stiffness/checks.h"
 #include "live_stiffness/section/channel_map.h"
 

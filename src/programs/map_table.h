@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "live_stiffness/analysis/stiffness_sweep.h"
-#include "live_stiffness/part_file.h"
+#include "analysis/stiffness_sweep.h"
+#include "part_file.h"
 
 namespace live_stiffness {
 

@@ -2,8 +2,8 @@
 
 #include <ros/ros.h>
 
-#include "live_stiffness/ros/node_process.h"
-#include "live_stiffness/ros/parallel_node.h"
+#include "ros/node_process.h"
+#include "ros/parallel_node.h"
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "parallel_node");

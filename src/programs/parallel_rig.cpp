@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "live_stiffness/parallel/parallel_scene_file.h"
-#include "live_stiffness/ros/node_process.h"
-#include "live_stiffness/ros/parameter_reader.h"
+#include "ros/node_process.h"
+#include "ros/parameter_reader.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include "live_stiffness/checks.h"
 #ifdef LIVE_STIFFNESS_WITH_ROS
-#include "live_stiffness/ros/recorded_bag.h"
+#include "ros/recorded_bag.h"
 #endif
 
 namespace live_stiffness {

@@ -4,10 +4,10 @@
 #include <boost/program_options.hpp>
 #include <iostream>
 
-#include "live_stiffness/calibration/calibration.h"
-#include "live_stiffness/calibration/calibration_report.h"
+#include "calibration/calibration.h"
+#include "calibration/calibration_report.h"
 #include "live_stiffness/checks.h"
-#include "live_stiffness/estimation/tracker_delay.h"
+#include "estimation/tracker_delay.h"
 #include "live_stiffness/rod/scene_file.h"
 #include "recording_reader.h"
 

@@ -7,9 +7,9 @@
 #include <iostream>
 
 #include "bag_options.h"
-#include "live_stiffness/part_file.h"
+#include "part_file.h"
 #include "live_stiffness/rod/scene_file.h"
-#include "live_stiffness/ros/bag_replay.h"
+#include "ros/bag_replay.h"
 #include "progress_bar.h"
 
 namespace po = boost::program_options;

@@ -3,10 +3,10 @@
 
 #include <ros/ros.h>
 
-#include "live_stiffness/ros/conversions.h"
-#include "live_stiffness/ros/node_process.h"
-#include "live_stiffness/ros/rig_bag.h"
-#include "live_stiffness/ros/rig_parameters.h"
+#include "ros/conversions.h"
+#include "ros/node_process.h"
+#include "ros/rig_bag.h"
+#include "ros/rig_parameters.h"
 
 namespace {
 

@@ -3,9 +3,9 @@
 #include <boost/program_options.hpp>
 #include <iostream>
 
-#include "live_stiffness/rig/rig_model.h"
+#include "rig/rig_model.h"
 #include "live_stiffness/rod/scene_file.h"
-#include "live_stiffness/ros/rig_bag.h"
+#include "ros/rig_bag.h"
 #include "progress_bar.h"
 
 namespace po = boost::program_options;

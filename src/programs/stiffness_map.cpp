@@ -9,7 +9,7 @@
 #include <iostream>
 #include <limits>
 
-#include "live_stiffness/analysis/stiffness_finder.h"
+#include "analysis/stiffness_finder.h"
 #include "live_stiffness/rod/scene_file.h"
 #include "map_arguments.h"
 #include "map_table.h"

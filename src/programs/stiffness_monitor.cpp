@@ -10,7 +10,7 @@
 #include "live_stiffness/PlatformEstimate.h"
 #include "live_stiffness/StiffnessEstimate.h"
 #include "live_stiffness/TrackingError.h"
-#include "live_stiffness/ros/node_process.h"
+#include "ros/node_process.h"
 
 namespace {
 

@@ -1,9 +1,9 @@
-#include "live_stiffness/rig/contact.h"
+#include "rig/contact.h"
 
 #include <cmath>
 
 #include "live_stiffness/lie/se3.h"
-#include "live_stiffness/rig/quintic_blend.h"
+#include "rig/quintic_blend.h"
 
 namespace live_stiffness {
 

@@ -1,4 +1,4 @@
-#include "live_stiffness/rig/fine_robot.h"
+#include "rig/fine_robot.h"
 
 #include <Eigen/LU>
 #include <cmath>

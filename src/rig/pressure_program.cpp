@@ -1,10 +1,10 @@
-#include "live_stiffness/rig/pressure_program.h"
+#include "rig/pressure_program.h"
 
 #include <algorithm>
 #include <cmath>
 #include <random>
 
-#include "live_stiffness/rig/quintic_blend.h"
+#include "rig/quintic_blend.h"
 
 namespace live_stiffness {
 namespace {

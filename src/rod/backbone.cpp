@@ -1,4 +1,4 @@
-#include "live_stiffness/rod/backbone.h"
+#include "rod/backbone.h"
 
 #include <numeric>
 

@@ -1,4 +1,4 @@
-#include "live_stiffness/rod/chain.h"
+#include "rod/chain.h"
 
 namespace live_stiffness {
 

@@ -1,4 +1,4 @@
-#include "live_stiffness/rod/conjugate_points.h"
+#include "rod/conjugate_points.h"
 
 #include <Eigen/LU>
 

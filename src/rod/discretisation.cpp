@@ -1,4 +1,4 @@
-#include "live_stiffness/rod/discretisation.h"
+#include "rod/discretisation.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "live_stiffness/rod/element_passes.h"
+#include "rod/element_passes.h"
 
 #include "rod/element_passes_tables.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 // One table for each number of stages, from kMinStages on. Each instruction set has a translation unit of its own.
 
-#include "live_stiffness/rod/element_passes.h"
+#include "rod/element_passes.h"
 
 namespace live_stiffness {
 

@@ -5,7 +5,7 @@
 //   v = e3 + c_se R^T n,   u = u_rest + c_bt R^T m                                             (7), (9), (37)
 // with n, m the external loads only.
 
-#include "live_stiffness/rod/element_passes.h"
+#include "rod/element_passes.h"
 #include "rod/lanes.h"
 
 namespace live_stiffness {

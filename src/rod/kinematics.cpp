@@ -1,6 +1,6 @@
-#include "live_stiffness/rod/kinematics.h"
+#include "rod/kinematics.h"
 
-#include "live_stiffness/rod/shooting.h"
+#include "rod/shooting.h"
 
 namespace live_stiffness {
 

@@ -3,7 +3,7 @@
 // one station). Included by one translation unit per instruction set; everything has internal linkage, so that no code
 // of one set can be linked into another.
 
-#include "live_stiffness/rod/element_state.h"
+#include "rod/element_state.h"
 
 namespace live_stiffness {
 namespace {

@@ -1,4 +1,4 @@
-#include "live_stiffness/rod/rod_element.h"
+#include "rod/rod_element.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "live_stiffness/rod/shooting.h"
+#include "rod/shooting.h"
 
 #include <cmath>
 

@@ -1,11 +1,11 @@
-#include "live_stiffness/rod/statics.h"
+#include "rod/statics.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "live_stiffness/rod/conjugate_points.h"
-#include "live_stiffness/rod/kinematics.h"
-#include "live_stiffness/rod/stability.h"
+#include "rod/conjugate_points.h"
+#include "rod/kinematics.h"
+#include "rod/stability.h"
 
 namespace live_stiffness {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "live_stiffness/rod/stability.h"
-#include "live_stiffness/rod/statics.h"
+#include "rod/stability.h"
+#include "rod/statics.h"
 
 namespace live_stiffness {
 namespace {

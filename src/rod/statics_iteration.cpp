@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "live_stiffness/rod/statics.h"
+#include "rod/statics.h"
 
 namespace live_stiffness {
 namespace {

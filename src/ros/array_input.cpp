@@ -1,4 +1,4 @@
-#include "live_stiffness/ros/array_input.h"
+#include "ros/array_input.h"
 
 #include <ros/master.h>
 

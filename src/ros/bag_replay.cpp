@@ -1,4 +1,4 @@
-#include "live_stiffness/ros/bag_replay.h"
+#include "ros/bag_replay.h"
 
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
@@ -8,11 +8,11 @@
 #include <filesystem>
 #include <optional>
 
-#include "live_stiffness/estimation/motion_history.h"
-#include "live_stiffness/estimation/tip_force.h"
-#include "live_stiffness/ros/bag_message.h"
-#include "live_stiffness/ros/bag_structure.h"
-#include "live_stiffness/ros/output_bag.h"
+#include "estimation/motion_history.h"
+#include "estimation/tip_force.h"
+#include "ros/bag_message.h"
+#include "ros/bag_structure.h"
+#include "ros/output_bag.h"
 
 namespace live_stiffness {
 namespace {

@@ -1,4 +1,4 @@
-#include "live_stiffness/ros/bag_structure.h"
+#include "ros/bag_structure.h"
 
 #include <boost/interprocess/file_mapping.hpp>
 #include <boost/interprocess/mapped_region.hpp>

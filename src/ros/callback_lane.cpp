@@ -1,4 +1,4 @@
-#include "live_stiffness/ros/callback_lane.h"
+#include "ros/callback_lane.h"
 
 #include <pthread.h>
 #include <ros/console.h>

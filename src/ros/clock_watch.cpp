@@ -1,4 +1,4 @@
-#include "live_stiffness/ros/clock_watch.h"
+#include "ros/clock_watch.h"
 
 #include <utility>
 

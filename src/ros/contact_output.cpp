@@ -1,4 +1,4 @@
-#include "live_stiffness/ros/contact_output.h"
+#include "ros/contact_output.h"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "live_stiffness/ros/conversions.h"
+#include "ros/conversions.h"
 
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <live_stiffness/RodLengths.h>
@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "live_stiffness/ros/short_allocator.h"
+#include "ros/short_allocator.h"
 
 namespace live_stiffness {
 namespace {

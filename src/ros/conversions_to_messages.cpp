@@ -1,4 +1,4 @@
-#include "live_stiffness/ros/conversions.h"
+#include "ros/conversions.h"
 
 namespace live_stiffness {
 namespace {

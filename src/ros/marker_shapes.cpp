@@ -1,9 +1,9 @@
-#include "live_stiffness/ros/marker_shapes.h"
+#include "ros/marker_shapes.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "live_stiffness/ros/conversions.h"
+#include "ros/conversions.h"
 
 namespace live_stiffness {
 namespace {

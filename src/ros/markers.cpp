@@ -1,11 +1,11 @@
-#include "live_stiffness/ros/markers.h"
+#include "ros/markers.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "live_stiffness/analysis/eigenscrews.h"
-#include "live_stiffness/ros/conversions.h"
+#include "ros/conversions.h"
 
 namespace live_stiffness {
 namespace {

@@ -1,4 +1,4 @@
-#include "live_stiffness/ros/master_watch.h"
+#include "ros/master_watch.h"
 
 #include <ros/console.h>
 #include <ros/init.h>
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "live_stiffness/ros/node_graph.h"
+#include "ros/node_graph.h"
 
 namespace live_stiffness {
 namespace {

@@ -1,6 +1,6 @@
 // What changes a running StiffnessNode: ~reset, ~pause, ~reload and dynamic_reconfigure.
 
-#include "live_stiffness/ros/stiffness_node.h"
+#include "ros/stiffness_node.h"
 
 namespace live_stiffness {
 namespace {

@@ -1,4 +1,4 @@
-#include "live_stiffness/ros/node_graph.h"
+#include "ros/node_graph.h"
 
 #include <ros/network.h>
 #include <xmlrpcpp/XmlRpcClient.h>

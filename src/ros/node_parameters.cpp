@@ -1,12 +1,12 @@
-#include "live_stiffness/ros/node_parameters.h"
+#include "ros/node_parameters.h"
 
 #include <ros/console.h>
 
 #include <cmath>
 
 #include "live_stiffness/rod/scene_file.h"
-#include "live_stiffness/ros/contact_parameters.h"
-#include "live_stiffness/ros/parameter_reader.h"
+#include "ros/contact_parameters.h"
+#include "ros/parameter_reader.h"
 
 namespace live_stiffness {
 namespace {

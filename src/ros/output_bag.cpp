@@ -1,4 +1,4 @@
-#include "live_stiffness/ros/output_bag.h"
+#include "ros/output_bag.h"
 
 #include <vector>
 

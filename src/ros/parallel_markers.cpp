@@ -1,10 +1,10 @@
-#include "live_stiffness/ros/parallel_markers.h"
+#include "ros/parallel_markers.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include "live_stiffness/ros/conversions.h"
+#include "ros/conversions.h"
 
 namespace live_stiffness {
 namespace {

@@ -1,9 +1,9 @@
-#include "live_stiffness/ros/parallel_node.h"
+#include "ros/parallel_node.h"
 
 #include <optional>
 
-#include "live_stiffness/ros/parallel_markers.h"
-#include "live_stiffness/ros/solver_report.h"
+#include "ros/parallel_markers.h"
+#include "ros/solver_report.h"
 
 namespace live_stiffness {
 

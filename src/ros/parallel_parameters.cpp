@@ -1,9 +1,9 @@
-#include "live_stiffness/ros/parallel_parameters.h"
+#include "ros/parallel_parameters.h"
 
 #include <ros/console.h>
 
 #include "live_stiffness/parallel/parallel_scene_file.h"
-#include "live_stiffness/ros/parameter_reader.h"
+#include "ros/parameter_reader.h"
 
 namespace live_stiffness {
 

@@ -1,4 +1,4 @@
-#include "live_stiffness/ros/parameter_reader.h"
+#include "ros/parameter_reader.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "live_stiffness/ros/pressure_input.h"
+#include "ros/pressure_input.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "live_stiffness/ros/reconfiguration.h"
+#include "ros/reconfiguration.h"
 
 namespace live_stiffness {
 namespace {

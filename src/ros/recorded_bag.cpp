@@ -1,4 +1,4 @@
-#include "live_stiffness/ros/recorded_bag.h"
+#include "ros/recorded_bag.h"
 
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "live_stiffness/checks.h"
-#include "live_stiffness/ros/bag_message.h"
-#include "live_stiffness/ros/bag_structure.h"
+#include "ros/bag_message.h"
+#include "ros/bag_structure.h"
 
 namespace live_stiffness {
 namespace {

@@ -1,4 +1,4 @@
-#include "live_stiffness/ros/registration_service.h"
+#include "ros/registration_service.h"
 
 #include <ros/console.h>
 

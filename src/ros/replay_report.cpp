@@ -1,9 +1,9 @@
-#include "live_stiffness/ros/replay_report.h"
+#include "ros/replay_report.h"
 
 #include <sstream>
 
 #include "live_stiffness/checks.h"
-#include "live_stiffness/estimation/tip_force.h"
+#include "estimation/tip_force.h"
 
 namespace live_stiffness {
 namespace {

@@ -1,4 +1,4 @@
-#include "live_stiffness/ros/rig_bag.h"
+#include "ros/rig_bag.h"
 
 namespace live_stiffness {
 

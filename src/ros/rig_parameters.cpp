@@ -1,10 +1,10 @@
-#include "live_stiffness/ros/rig_parameters.h"
+#include "ros/rig_parameters.h"
 
 #include <ros/console.h>
 
 #include "live_stiffness/rod/scene_file.h"
-#include "live_stiffness/ros/conversions.h"
-#include "live_stiffness/ros/parameter_reader.h"
+#include "ros/conversions.h"
+#include "ros/parameter_reader.h"
 
 namespace live_stiffness {
 

@@ -1,7 +1,7 @@
-#include "live_stiffness/ros/stiffness_node.h"
+#include "ros/stiffness_node.h"
 
 #include "live_stiffness/analysis/deflection.h"
-#include "live_stiffness/ros/solver_report.h"
+#include "ros/solver_report.h"
 
 namespace live_stiffness {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <memory>
 
-#include "live_stiffness/ros/master_watch.h"
-#include "live_stiffness/ros/stiffness_node.h"
+#include "ros/master_watch.h"
+#include "ros/stiffness_node.h"
 
 namespace live_stiffness {
 

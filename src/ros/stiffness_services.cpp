@@ -1,4 +1,4 @@
-#include "live_stiffness/ros/stiffness_services.h"
+#include "ros/stiffness_services.h"
 
 #include <cmath>
 

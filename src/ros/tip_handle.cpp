@@ -1,11 +1,11 @@
-#include "live_stiffness/ros/tip_handle.h"
+#include "ros/tip_handle.h"
 
 #include <algorithm>
 #include <cstdio>
 
 #include "live_stiffness/analysis/holding_wrench.h"
-#include "live_stiffness/estimation/tip_force.h"
-#include "live_stiffness/ros/conversions.h"
+#include "estimation/tip_force.h"
+#include "ros/conversions.h"
 
 namespace live_stiffness {
 namespace {

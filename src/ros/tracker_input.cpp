@@ -1,10 +1,10 @@
-#include "live_stiffness/ros/tracker_input.h"
+#include "ros/tracker_input.h"
 
 #include <ros/master.h>
 
 #include <algorithm>
 
-#include "live_stiffness/ros/any_subscriber.h"
+#include "ros/any_subscriber.h"
 
 namespace live_stiffness {
 namespace {

@@ -1,4 +1,4 @@
-#include "live_stiffness/ros/wrench_input.h"
+#include "ros/wrench_input.h"
 
 namespace live_stiffness {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "live_stiffness/gauss_legendre.h"
+#include "gauss_legendre.h"
 #include "live_stiffness/section/load_stepping.h"
 
 namespace live_stiffness {

@@ -2,7 +2,7 @@
 // The keys of a cross-section that every kind of scene file shares.
 
 #include "live_stiffness/section/cross_section.h"
-#include "live_stiffness/yaml_map.h"
+#include "yaml_map.h"
 
 namespace live_stiffness {
 

@@ -1,4 +1,4 @@
-#include "live_stiffness/analysis/stiffness_finder.h"
+#include "analysis/stiffness_finder.h"
 
 #include <Eigen/QR>
 #include <gtest/gtest.h>

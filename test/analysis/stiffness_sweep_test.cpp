@@ -1,4 +1,4 @@
-#include "live_stiffness/analysis/stiffness_sweep.h"
+#include "analysis/stiffness_sweep.h"
 
 #include <gtest/gtest.h>
 

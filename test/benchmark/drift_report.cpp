@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "live_stiffness/section/accumulated_rest_state.h"
+#include "section/accumulated_rest_state.h"
 #include "programs/progress_bar.h"
 #include "support/pressure_cycles.h"
 #include "support/scenes.h"

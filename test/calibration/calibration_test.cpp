@@ -1,11 +1,11 @@
-#include "live_stiffness/calibration/calibration.h"
+#include "calibration/calibration.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdio>
 
-#include "live_stiffness/calibration/calibration_report.h"
+#include "calibration/calibration_report.h"
 #include "live_stiffness/checks.h"
 #include "support/scenes.h"
 #include "support/shared_data.h"

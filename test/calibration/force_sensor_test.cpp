@@ -1,10 +1,10 @@
-#include "live_stiffness/calibration/force_sensor.h"
+#include "calibration/force_sensor.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "live_stiffness/calibration/calibration.h"
+#include "calibration/calibration.h"
 #include "support/scenes.h"
 #include "support/simulated_recording.h"
 

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "live_stiffness/calibration/compliance_table.h"
-#include "live_stiffness/calibration/scene_text.h"
+#include "calibration/compliance_table.h"
+#include "calibration/scene_text.h"
 #include "live_stiffness/checks.h"
 #include "live_stiffness/estimation/creep.h"
 #include "live_stiffness/rod/scene_file.h"

@@ -1,4 +1,4 @@
-#include "live_stiffness/compliance/material_compliance.h"
+#include "compliance/material_compliance.h"
 
 #include <gtest/gtest.h>
 

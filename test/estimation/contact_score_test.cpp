@@ -1,4 +1,4 @@
-#include "live_stiffness/estimation/contact_score.h"
+#include "estimation/contact_score.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include "live_stiffness/estimation/error_summary.h"
 #include "live_stiffness/estimation/registration_fit.h"
 #include "live_stiffness/estimation/stiffness_estimator.h"
-#include "live_stiffness/estimation/tracker_delay.h"
+#include "estimation/tracker_delay.h"
 #include "live_stiffness/rod/scene_file.h"
 #include "live_stiffness/section/channel_map.h"
 #include "support/shared_data.h"

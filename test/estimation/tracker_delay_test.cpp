@@ -1,4 +1,4 @@
-#include "live_stiffness/estimation/tracker_delay.h"
+#include "estimation/tracker_delay.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <random>
 
 #include "live_stiffness/checks.h"
-#include "live_stiffness/estimation/interpolation.h"
+#include "estimation/interpolation.h"
 
 namespace live_stiffness {
 namespace {

@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "live_stiffness/checks.h"
-#include "live_stiffness/ros/recorded_bag.h"
+#include "ros/recorded_bag.h"
 #include "recording_checks.h"
 
 using namespace live_stiffness;

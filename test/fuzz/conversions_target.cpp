@@ -7,7 +7,7 @@
 #include <std_msgs/Float64MultiArray.h>
 
 #include "fuzz_target.h"
-#include "live_stiffness/ros/conversions.h"
+#include "ros/conversions.h"
 
 using namespace live_stiffness;
 

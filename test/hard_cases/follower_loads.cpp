@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "hard_cases/hard_case.h"
-#include "live_stiffness/rod/kinematics.h"
-#include "live_stiffness/rod/shooting.h"
+#include "rod/kinematics.h"
+#include "rod/shooting.h"
 #include "support/bare_rod.h"
 #include "support/shared_data.h"
 

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "hard_cases/hard_case.h"
-#include "live_stiffness/rig/fine_robot.h"
+#include "rig/fine_robot.h"
 #include "support/bare_rod.h"
 #include "support/elastica.h"
 #include "support/errors.h"

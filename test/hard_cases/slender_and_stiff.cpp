@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "hard_cases/hard_case.h"
-#include "live_stiffness/rig/fine_robot.h"
+#include "rig/fine_robot.h"
 #include "support/errors.h"
 #include "support/scaled_scene.h"
 

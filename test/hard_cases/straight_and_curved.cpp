@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "hard_cases/hard_case.h"
-#include "live_stiffness/compliance/material_compliance.h"
-#include "live_stiffness/rod/kinematics.h"
+#include "compliance/material_compliance.h"
+#include "rod/kinematics.h"
 #include "support/bare_rod.h"
 #include "support/errors.h"
 #include "support/planar_chain.h"

@@ -1,4 +1,4 @@
-#include "live_stiffness/lie/cayley.h"
+#include "lie/cayley.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "live_stiffness/rig/contact.h"
+#include "rig/contact.h"
 
 #include <gtest/gtest.h>
 

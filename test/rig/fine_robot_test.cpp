@@ -1,6 +1,6 @@
 // The rig's ground truth and the product's model are two programs for the same physics.
 
-#include "live_stiffness/rig/fine_robot.h"
+#include "rig/fine_robot.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "live_stiffness/rig/pressure_program.h"
+#include "rig/pressure_program.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "live_stiffness/rig/rig_model.h"
+#include "rig/rig_model.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "live_stiffness/rod/branch_search.h"
+#include "rod/branch_search.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
-#include "live_stiffness/rod/conjugate_points.h"
+#include "rod/conjugate_points.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include "live_stiffness/rod/kinematics.h"
-#include "live_stiffness/rod/shooting.h"
-#include "live_stiffness/rod/stability.h"
+#include "rod/kinematics.h"
+#include "rod/shooting.h"
+#include "rod/stability.h"
 #include "support/bare_rod.h"
 
 namespace live_stiffness {

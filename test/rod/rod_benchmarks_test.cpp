@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
-#include "live_stiffness/rod/statics.h"
+#include "rod/statics.h"
 #include "support/bare_rod.h"
 #include "support/matrix_near.h"
 #include "support/shared_data.h"

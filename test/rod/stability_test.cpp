@@ -1,4 +1,4 @@
-#include "live_stiffness/rod/stability.h"
+#include "rod/stability.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
-#include "live_stiffness/rod/statics.h"
+#include "rod/statics.h"
 
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
 #include <iostream>
 
-#include "live_stiffness/compliance/material_compliance.h"
-#include "live_stiffness/rod/kinematics.h"
+#include "compliance/material_compliance.h"
+#include "rod/kinematics.h"
 #include "support/differences.h"
 #include "support/errors.h"
 #include "support/literal_rod.h"

@@ -1,4 +1,4 @@
-#include "live_stiffness/ros/bag_replay.h"
+#include "ros/bag_replay.h"
 
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>

@@ -10,7 +10,7 @@
 #include <iterator>
 
 #include "live_stiffness/rod/scene_file.h"
-#include "live_stiffness/ros/node_parameters.h"
+#include "ros/node_parameters.h"
 #include "support/driven_node.h"
 
 namespace live_stiffness {

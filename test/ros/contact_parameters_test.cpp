@@ -1,4 +1,4 @@
-#include "live_stiffness/ros/contact_parameters.h"
+#include "ros/contact_parameters.h"
 
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>

@@ -9,9 +9,9 @@
 #include <map>
 
 #include "live_stiffness/estimation/error_summary.h"
-#include "live_stiffness/estimation/contact_score.h"
-#include "live_stiffness/estimation/interpolation.h"
-#include "live_stiffness/ros/conversions.h"
+#include "estimation/contact_score.h"
+#include "estimation/interpolation.h"
+#include "ros/conversions.h"
 #include "support/contact_message.h"
 #include "support/driven_node.h"
 

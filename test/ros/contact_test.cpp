@@ -6,8 +6,8 @@
 
 #include <map>
 
-#include "live_stiffness/estimation/contact_score.h"
-#include "live_stiffness/ros/conversions.h"
+#include "estimation/contact_score.h"
+#include "ros/conversions.h"
 #include "support/contact_message.h"
 #include "support/ros_wait.h"
 

@@ -1,4 +1,4 @@
-#include "live_stiffness/ros/conversions.h"
+#include "ros/conversions.h"
 
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-#include "live_stiffness/estimation/tip_force.h"
+#include "estimation/tip_force.h"
 
 namespace live_stiffness {
 namespace {

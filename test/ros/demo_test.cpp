@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "live_stiffness/estimation/error_summary.h"
-#include "live_stiffness/ros/conversions.h"
+#include "ros/conversions.h"
 #include "support/estimate_checks.h"
 #include "support/ros_wait.h"
 

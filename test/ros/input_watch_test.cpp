@@ -1,4 +1,4 @@
-#include "live_stiffness/ros/input_watch.h"
+#include "ros/input_watch.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "live_stiffness/ros/markers.h"
+#include "ros/markers.h"
 
 #include <gtest/gtest.h>
 

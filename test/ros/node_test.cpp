@@ -14,7 +14,7 @@
 
 #include "live_stiffness/estimation/registration.h"
 #include "live_stiffness/rod/scene_file.h"
-#include "live_stiffness/ros/conversions.h"
+#include "ros/conversions.h"
 #include "support/driven_node.h"
 #include "support/watched_diagnostics.h"
 

@@ -1,4 +1,4 @@
-#include "live_stiffness/ros/parallel_markers.h"
+#include "ros/parallel_markers.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "live_stiffness/ros/recorded_bag.h"
+#include "ros/recorded_bag.h"
 
 #include <console_bridge/console.h>
 #include <gtest/gtest.h>

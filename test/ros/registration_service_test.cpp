@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "live_stiffness/Register.h"
-#include "live_stiffness/ros/conversions.h"
+#include "ros/conversions.h"
 #include "support/driven_node.h"
 
 namespace live_stiffness {

@@ -9,7 +9,7 @@
 #include <map>
 
 #include "live_stiffness/estimation/error_summary.h"
-#include "live_stiffness/ros/conversions.h"
+#include "ros/conversions.h"
 #include "live_stiffness/section/channel_map.h"
 #include "support/estimate_checks.h"
 #include "support/ros_wait.h"

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "live_stiffness/rig/rig_model.h"
+#include "rig/rig_model.h"
 #include "live_stiffness/rod/scene_file.h"
 #include "programs/progress_bar.h"
 #include "support/driven_node.h"

@@ -4,7 +4,7 @@
 
 #include <atomic>
 
-#include "live_stiffness/ros/clock_watch.h"
+#include "ros/clock_watch.h"
 #include "support/played_rig.h"
 
 namespace live_stiffness {

@@ -1,4 +1,4 @@
-#include "live_stiffness/section/accumulated_rest_state.h"
+#include "section/accumulated_rest_state.h"
 
 #include <gtest/gtest.h>
 

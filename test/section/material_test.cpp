@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "live_stiffness/rig/fine_robot.h"
+#include "rig/fine_robot.h"
 #include "live_stiffness/section/load_stepping.h"
 #include "support/scenes.h"
 

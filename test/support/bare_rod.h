@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "live_stiffness/rod/statics.h"
+#include "rod/statics.h"
 
 namespace live_stiffness {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-#include "live_stiffness/ros/conversions.h"
+#include "ros/conversions.h"
 #include "support/estimate_checks.h"
 #include "support/ros_wait.h"
 

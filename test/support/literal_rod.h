@@ -9,7 +9,7 @@
 //  - arc length runs over the stretched length lam l0, so pressure's own stretch is taken out of v by
 //    v* = e3 - c_se F_P; and u* = u_rest - c_bt(lam) T_P(lam) carries what earlier load steps left.
 
-#include "live_stiffness/rod/backbone.h"
+#include "rod/backbone.h"
 
 namespace live_stiffness {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "live_stiffness/lie/se3.h"
-#include "live_stiffness/rod/chain.h"
+#include "rod/chain.h"
 #include "live_stiffness/section/load_stepping.h"
 
 namespace live_stiffness {

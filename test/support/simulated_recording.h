@@ -4,7 +4,7 @@
 #include <random>
 
 #include "live_stiffness/estimation/recording.h"
-#include "live_stiffness/rig/rig_model.h"
+#include "rig/rig_model.h"
 #include "live_stiffness/section/channel_map.h"
 
 namespace live_stiffness {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "live_stiffness/checks.h"
-#include "live_stiffness/rod/element_passes.h"
+#include "rod/element_passes.h"
 #include "live_stiffness/section/load_stepping.h"
 
 namespace live_stiffness {

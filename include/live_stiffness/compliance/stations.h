@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "live_stiffness/rod/backbone.h"
+#include "rod/backbone.h"
 
 namespace live_stiffness {
 

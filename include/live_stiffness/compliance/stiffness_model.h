@@ -8,7 +8,7 @@
 
 #include "live_stiffness/compliance/model_options.h"
 #include "live_stiffness/compliance/stations.h"
-#include "live_stiffness/rod/statics.h"
+#include "rod/statics.h"
 
 namespace live_stiffness {
 

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "live_stiffness/estimation/creep.h"
-#include "live_stiffness/estimation/tip_wrench_filter.h"
+#include "estimation/tip_wrench_filter.h"
 
 namespace live_stiffness {
 

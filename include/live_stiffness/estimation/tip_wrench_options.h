@@ -4,7 +4,7 @@
 #include "live_stiffness/checks.h"
 #include "live_stiffness/compliance/model_options.h"
 #include "live_stiffness/estimation/contact_detector.h"
-#include "live_stiffness/estimation/tip_force.h"
+#include "estimation/tip_force.h"
 
 namespace live_stiffness {
 

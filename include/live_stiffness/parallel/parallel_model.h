@@ -4,9 +4,9 @@
 
 #include <memory>
 
-#include "live_stiffness/compliance/material_compliance.h"
+#include "compliance/material_compliance.h"
 #include "live_stiffness/compliance/stiffness_model.h"
-#include "live_stiffness/parallel/parallel_statics.h"
+#include "parallel/parallel_statics.h"
 
 namespace live_stiffness {
 

@@ -1,0 +1,25 @@
+#pragma once
+// What a calibration found, for people and for plotting.
+
+#include <string>
+
+#include "calibration/calibration.h"
+
+namespace live_stiffness {
+
+// Several lines: estimates with standard errors, correlations, what the data cannot tell apart, errors of the fit and
+// with blocks left out, registrations with their verdicts.
+std::string reportText(const CalibrationResult& result);
+
+// The short form that goes on top of a calibrated scene file: `how` (such as the command) first.
+std::string sceneHeader(const CalibrationResult& result, const std::string& how);
+
+// CSV of every sample: recording, time_s, used, error_x_m .. error_z_m (base axes), error_m, rotation_error_rad,
+// left_out_error_m (empty where not left out), pressure_K_pa (gauge, one per channel). For scripts/plot_calibration.
+std::string residualTable(const CalibrationResult& result, const std::vector<CalibrationRecording>& recordings);
+
+// CSV of every row of the compliance tables: row, norm_error (42), matrix_error and the same left out (left_out_...),
+// then measured, predicted and left out entries (measured_c11_m_per_n ...), column by column.
+std::string complianceTableOf(const CalibrationResult& result);
+
+}  // namespace live_stiffness

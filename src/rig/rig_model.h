@@ -1,0 +1,104 @@
+#pragma once
+// A simulated rig: regulators, a robot that creeps, and a noisy tracker. Plays what the node would see, and the truth.
+//
+//   command --lag--> measured --+ slow error--> actual --creep--> effective --FineRobot--> X_BT --tracker--> X_AS
+//                                                                               |
+//                                                              tip_wrench + contact
+//
+// The regulator holds its own reading on the command after a lag, so its reading is what a driver publishes
+// (`measured`); the slow error is that of its sensor, and only the robot feels it.
+
+#include <cstdint>
+#include <optional>
+#include <random>
+#include <vector>
+
+#include "estimation/motion_history.h"
+#include "live_stiffness/estimation/registration.h"
+#include "rig/contact.h"
+#include "rig/fine_robot.h"
+#include "rig/first_order_lag.h"
+#include "rig/pressure_program.h"
+#include "live_stiffness/section/channel_map.h"
+
+namespace live_stiffness {
+
+// Legal ranges in the comments; see RigModel for what happens outside of them.
+struct RigOptions {
+  std::vector<int> channel_of_chamber;  // see ChannelMap; empty: one channel per chamber
+  ProgramOptions program;               // its seed is replaced by one drawn from `seed`
+  std::uint64_t seed = 1;               // of everything random here
+
+  double regulator_time_constant = 0.1;  // s; 0 to 10
+  double regulator_error = 3000.0;       // bound of the slow error, Pa; 0 to 1e5
+  double regulator_error_period = 60.0;  // s; 1 to 1e5: slowest of three sines, the others 2 and 3 times as fast
+
+  // Effective pressure = (1 - fraction) actual + fraction * actual lagged by the time constant: after a step the robot
+  // reaches (1 - fraction) at once and creeps the rest. Fully relaxed it is the fine robot exactly.
+  double creep_fraction = 0.05;       // 0 to 0.5
+  double creep_time_constant = 2.0;   // s; 0.01 to 1000
+
+  // X_AB and X_TS of the rig, rotations orthonormal to 1e-6; and by how much its tracker is late, 0 to kLargestDelay.
+  Registration registration;
+
+  // White and isotropic. Both are RMS values of the error's *magnitude*, as trackers are specified: each of the three
+  // components has the standard deviation value / sqrt(3). The rotation error is a small turn in the sensor's axes.
+  double position_noise = 0.48e-3;           // m; 0 to 0.1
+  double rotation_noise = radians(0.30);     // rad; 0 to 0.5
+  double drop_out_probability = 0.0;  // per tracker sample outside of a drop-out, that one starts; 0 to 1
+  double drop_out_duration = 0.5;     // s; 0 to 3600
+
+  Wrench tip_wrench = Wrench::Zero();  // dead wrench at T, base axes, N and N m; finite
+  ContactOptions contact;              // what pushes the tip beside it now and then
+};
+
+struct RigSample {
+  double time = 0.0;             // s
+  Pressures command;             // gauge, Pa, one per channel
+  Pressures measured_channels;   // gauge, Pa, one per channel: what the regulator reports
+  Pressures measured_chambers;   // the same, one per chamber
+  std::optional<Pose> X_AS;      // tracker sample, of how the robot stood a delay before; empty during a drop-out
+  Pressures actual_chambers;     // truth: gauge, Pa, never negative (a regulator cannot pull)
+  Pressures effective_chambers;  // truth: after creep
+  Wrench contact_wrench;         // truth: what the pusher exerts at T, base axes; its moment is about T
+  Pose X_BT;                     // truth
+
+  // Truth, as a force sensor between pusher and tip measures it: contact_wrench in axes of T.
+  Wrench sensedContact() const { return wrenchAdjoint({X_BT.R.transpose(), Vector3::Zero()}) * contact_wrench; }
+};
+
+class RigModel {
+ public:
+  // Throws ConfigurationError with every fault: options out of range, a channel map that does not fit the scene, a
+  // scene without segments, or pressures (amplitude plus regulator error) beyond the sections' range.
+  RigModel(Scene scene, const RigOptions& options);
+
+  const Scene& scene() const { return robot_.scene(); }
+  const ChannelMap& channelMap() const { return channel_map_; }
+  const RigOptions& options() const { return options_; }
+
+  // Takes the rig from the last time to `time` (s) and returns what is seen there. The first call starts from rest at
+  // time 0. Equal seeds and equal times give equal samples. Between two calls the command counts as linear, so steps
+  // of at most a tenth of the program's period keep its shape. Throws std::invalid_argument if time is not finite,
+  // negative or goes backwards, std::runtime_error if the robot finds no equilibrium (buckled under its wrenches).
+  RigSample step(double time);
+
+ private:
+  Pressures slowError(double time) const;
+  std::optional<Pose> track(double time);
+
+  RigOptions options_;
+  ChannelMap channel_map_;
+  std::mt19937_64 random_;
+  PressureProgram program_;
+  FineRobot robot_;
+  FirstOrderLag regulator_;  // of channels
+  FirstOrderLag creep_;      // of chambers
+  Contact contact_;
+  MotionHistory history_;
+  std::vector<Vector3> error_phases_;  // rad, three components per channel
+  double time_ = 0.0;
+  double drop_out_until_ = -1.0;  // s
+};
+
+}  // namespace live_stiffness

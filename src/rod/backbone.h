@@ -1,0 +1,37 @@
+#pragma once
+// The shape of the robot: what kinematics (unloaded) and statics (loaded) both produce, and compliance reads.
+
+#include <vector>
+
+#include "rod/chain.h"
+#include "rod/rod_element.h"
+
+namespace live_stiffness {
+
+// Mutable result of a solve; built once for a scene, then reused without allocation.
+struct Backbone {
+  const ElementPasses* passes;         // how the elements are computed, all alike
+  std::vector<RestState> rest;         // one per segment
+  std::vector<int> element_count;      // one per segment
+  std::vector<RodElement> elements;    // base to tip, element_count[k] of segment k; inside `capacity`
+  Pose X_BT;                           // tip point
+
+  static constexpr int kMaxElements = 64;  // per segment
+  explicit Backbone(const Scene& scene, Simd simd = Simd::kBest);
+
+  Simd simd() const { return simd_; }
+  // First element of a segment in `elements`.
+  int firstElement(int segment) const;
+  // Stretched length of a segment, m.
+  double length(int segment) const { return element_count[segment] * elements[firstElement(segment)].state.length; }
+  // Makes as many elements as element_count says, of so many stages. True if that changed anything: nodes and columns
+  // then hold no guess.
+  bool resize(int stages);
+  // X_BT from numbers, R row-major.
+  void setTip(const double (&R)[9], const double (&p)[3]);
+
+ private:
+  Simd simd_;
+};
+
+}  // namespace live_stiffness

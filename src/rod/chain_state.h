@@ -1,0 +1,44 @@
+#pragma once
+// A chain and what acts on it as plain data, for code that is compiled for another instruction set (see
+// element_state.h).
+
+#include "rod/element_state.h"
+
+namespace live_stiffness {
+
+// One body of a chain.
+struct ChainPart {
+  int segment;    // index of the segment, -1: rigid link
+  double length;  // unstretched, m
+  double mass;    // kg; of a segment spread along it, of a link at its middle
+};
+
+struct ChainState {
+  const ChainPart* parts;  // base to tip
+  int part_count;
+  const int* element_count;  // of each segment
+  ElementState* elements;    // base to tip
+  double gravity[3];         // m/s^2, base axes
+  double base_force[3];      // external loads of everything, N
+  double base_moment[3];     // unknown, N m
+  double tip_offset[3];      // T from the chain's end, in its axes, m
+  double tip_moment[3];      // dead, at T, N m
+};
+
+// What one pass over all elements, from base to tip, leaves.
+struct SweepResult {
+  double R_tip[9], p_tip[3];  // of T; after anything but Pass::kOnce
+  double residual[3];         // moment at T that nothing balances, N m, base axes
+  double change;              // largest change of an element
+  bool sound;                 // finite, and no element bent too far
+};
+
+enum class Pass {
+  kOnce,      // one fixed-point pass an element
+  kShape,     // none, but the shape that the guess is, and where it ends
+  kFinish,    // kOnce and kShape
+  kAnew,      // every element integrated without a guess
+  kUnloaded,  // every element as if no load acted: for a guess
+};
+
+}  // namespace live_stiffness

@@ -1,0 +1,119 @@
+#pragma once
+// One element of rod as plain data: no Eigen and no class, because it crosses the border to code that is compiled for
+// another instruction set. Rows hold one value per Gauss node and then one for the element's end; matrices are
+// row-major, symmetric ones xx xy xz yy yz zz; axes are those of B unless said.
+
+#include "gauss_legendre.h"
+
+namespace live_stiffness {
+
+constexpr int kMinStages = 2;
+constexpr int kMaxStages = 7;
+typedef double StageRow[kMaxStages + 1] __attribute__((aligned(64)));
+
+// A symmetric 6x6 compliance in 21 numbers: linear block (symmetric), upper right block (3x3), angular block;
+// the rest of a row is not used.
+constexpr int kPackedSize = 21, kPackedRow = 24;
+typedef double PackedRow[kPackedRow] __attribute__((aligned(32)));
+
+// A row of ElementState::dense: density of compliance about the element's start, then tangent p', then rate of g; the
+// rest is not used.
+constexpr int kDenseTangent = kPackedSize, kDenseRate = kDenseTangent + 3, kDenseRow = 28;
+
+struct ElementState {
+  // Where it is.
+  int segment;                                // index of the segment it is part of
+  double start;                               // arc length of its start from the segment's base, stretched, m
+  double p_start[3];                          // position of its first section in B, m
+
+  // Set by the caller.
+  double length;                              // stretched, m; negative: from tip towards base
+  double R_start[9];                          // orientation of its first section
+  double n_start[3];                          // N, external loads of everything beyond
+  double m_start[3];                          // N m
+  double line_load[3];                        // w, N/m
+  double follower_load[3];                    // f, N/m, body axes
+  bool follows;                               // follower_load is not zero
+  double shear, elongation;                   // c_se = diag(shear, shear, elongation), 1/N
+  double bend_xx, bend_xy, bend_yy, torsion;  // c_bt, 1/(N m^2)
+  double rest_curvature[3];                   // u_rest, 1/m, body axes
+
+  // Unknown and guess: Cayley vectors g from the first section to the nodes, R = R_start cayley(g); and their rates,
+  // without that at the end.
+  StageRow g[3], g_rate[3];
+
+  // Result of the last pass.
+  double R_end[9], n_end[3], m_end[3];
+  double change;      // norm of the change of all g in it
+  double size;        // norm of all g, before it
+  double truncation;      // size of the highest Legendre coefficient of length * g', or what the one below lets expect
+  double interior_error;  // estimate of the relative error of the shape between the nodes
+
+  // Shape at the nodes, filled by evaluate(); offsets by place_unloaded(), too.
+  StageRow R[9], tangent[3], offset[3];  // orientation, p', position from the start (m)
+  StageRow n[3], m[3];
+  double offset_end[3];
+
+  // Linearised rod at the nodes, filled by propagate(): length times B, M and P of columns' rates.
+  StageRow bend[6], m_of_phi[9], p_of_phi[9];
+  double stretch[6];  // integral of S = R c_se R^T, symmetric
+
+  // Columns at the nodes and the end, and rotation at the start; kept as guess for the next solve.
+  StageRow phi[6][3], dm[6][3];
+  StageRow phi_rate[6][3];  // what phi is the integral of
+  double phi_start[6][3];
+  // Of the solution before: what predict() goes on from.
+  double turn[3];  // of the rest curvature from there to here, rad
+  StageRow g_before[3], phi_before[6][3], phi_rate_before[6][3];
+  double phi_start_before[6][3];
+  double column_truncation;  // square of the highest Legendre coefficient of their rate, as it turns the end, relative
+
+  // Plane of an arc: curvature (1/m) and its square, axis in the axes of its start, and in those of B its first direction
+  // across, its axis and its first tangent. Set by placeArc().
+  double arc_curvature, arc_square, arc_axis[2], arc_q1[3], arc_q2[3], arc_q3[3];
+
+  // Material compliance of the element about its start (of an arc: about its end), and what stations() needs. Filled by
+  // placeArc(), exact up to kMaxUnloadedBending, which sets no nodes; or by material(), on a Gauss grid of its own: one
+  // row a node.
+  PackedRow compliance;
+  bool is_arc, unloaded;
+  int dense_nodes;
+  double dense[kMaxNodes][kDenseRow] __attribute__((aligned(32)));
+  double compliance_error;  // estimate of its relative error that the grid adds
+  double station_error;     // estimate of the relative error of stations()
+
+  // Material compliance of everything before the element's start and end, about these. Set by accumulate().
+  PackedRow start_compliance, end_compliance;
+};
+
+// Which columns are found.
+enum class ColumnSet {
+  kBaseMoment,  // the first three; the others are nothing
+  kAll,
+};
+
+// Derivatives of a section's state with respect to [base moment, tip force]: rotation phi (rad, R changes by
+// hat(phi) R), position and moment. The first index is the column.
+struct ElementColumns {
+  double phi[6][3], p[6][3], m[6][3];
+  // What the columns' own error does, so far along the chain: [i][j] is the work of the moment of column i on the
+  // turning that column j still misses. It corrects the compliance to second order in that error, see StaticsSolver.
+  double defect[6][6];
+};
+
+// Sections inside one element, a batch at a time.
+constexpr int kStationBatch = 4;
+struct StationBatch {
+  int size;   // sections wanted; what is beyond must be set, too, and may repeat one of them
+  int nodes;  // which `weight` is for; 0: none yet
+  double fraction[kStationBatch] __attribute__((aligned(32)));  // of the element's length, 0 to 1
+  // Row j: of the values at node j of an element of length 1 in integrals from its start to the sections. Not for arcs.
+  double weight[kMaxNodes][kStationBatch] __attribute__((aligned(32)));
+};
+// Where the results go, column-major.
+struct StationResults {
+  double* pose[kStationBatch];        // 12: orientation in B and position, m
+  double* compliance[kStationBatch];  // 36: of everything before the section, about it
+};
+
+}  // namespace live_stiffness

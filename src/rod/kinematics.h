@@ -1,0 +1,11 @@
+#pragma once
+// Closed-form shape of a scene on which nothing external acts: constant strain per segment (6), exact.
+
+#include "rod/backbone.h"
+
+namespace live_stiffness {
+
+// Fills elements, guess and X_BT from backbone.rest and the number of elements and stages that the backbone has.
+void placeUnloaded(const Chain& chain, Backbone& backbone);
+
+}  // namespace live_stiffness

@@ -1,0 +1,64 @@
+#pragma once
+// One stretch of a Cosserat rod between two arc lengths, collocated at the Gauss-Legendre nodes. The equations are in
+// src/rod/element_passes_code.h, their derivation in docs/derivation.md.
+
+#include "live_stiffness/lie/se3.h"
+#include "rod/element_passes.h"
+#include "live_stiffness/section/load_stepping.h"
+
+namespace live_stiffness {
+
+// The numbers of an element, and what reads and writes them as vectors.
+struct RodElement {
+  RodElement() : state() {}
+
+  ElementState state;
+
+  // Start values: pose of the first section in B; external force and moment there, N and N m, base axes.
+  void setStart(const Pose& X, const Vector3& n, const Vector3& m);
+  void setSection(const RestState& rest);
+  // Dead load w per stretched length, base axes, and load f that follows the section, body axes; N/m.
+  void setLoads(const Vector3& line_load, const Vector3& follower_load = Vector3::Zero());
+
+  Vector3 p_start() const { return Vector3(state.p_start); }
+  Pose X_start() const;
+  Pose X_end() const;
+  Vector3 n_end() const { return Vector3(state.n_end); }
+  Vector3 m_end() const { return Vector3(state.m_end); }
+  Pose X(int node) const;  // in B
+  Vector3 g_end(int stages) const;   // Cayley vector between its ends
+  double bending(int stages) const;  // about the angle between its ends, rad
+};
+// So that a vector of them is an array of states.
+static_assert(sizeof(RodElement) == sizeof(ElementState), "RodElement holds nothing but its state");
+
+// Integrates the element from its start values by fixed-point passes, from the guess that it holds or anew. Order 2
+// stages. Returns false if the passes do not converge: the element is too long for its load or curvature.
+bool integrate(const ElementPasses& passes, bool anew, RodElement& element);
+
+// Carries columns from the start to the end of an integrated element, by passes until they change by less than `goal`,
+// relative, from the guess that it holds or anew:
+//   phi' = R c_bt R^T (dm - phi x m),  dp' = phi x p' + R c_se R^T (dn - phi x n),  dm' = -dp' x n - p' x dn,
+// dn the unit force of columns 3 to 5. Dead loads only. Returns what is estimated to be left, relative; infinity
+// without convergence.
+double propagate(const ElementPasses& passes, bool anew, RodElement& element, const ElementColumns& start, double goal,
+                 ElementColumns& end);
+
+// The 21 numbers of element_state.h as a 6x6 matrix; same point, axes and units.
+inline void unpack(const PackedRow& compliance, Matrix6& C) {
+  // Which of the 21 numbers is entry (row, column).
+  static constexpr int kIndex[6][6] = {{0, 1, 2, 6, 7, 8},     {1, 3, 4, 9, 10, 11},   {2, 4, 5, 12, 13, 14},
+                                       {6, 9, 12, 15, 16, 17}, {7, 10, 13, 16, 18, 19}, {8, 11, 14, 17, 19, 20}};
+#pragma GCC unroll 6
+  for (int j = 0; j < 6; ++j)
+#pragma GCC unroll 6
+    for (int i = 0; i < 6; ++i) C(i, j) = compliance[kIndex[i][j]];
+}
+
+// One part (phi, p or m) of columns as a 3x6 matrix.
+inline Eigen::Map<Matrix3X6> columnsOf(double (&part)[6][3]) { return Eigen::Map<Matrix3X6>(&part[0][0]); }
+inline Eigen::Map<const Matrix3X6> columnsOf(const double (&part)[6][3]) {
+  return Eigen::Map<const Matrix3X6>(&part[0][0]);
+}
+
+}  // namespace live_stiffness

@@ -1,0 +1,47 @@
+#pragma once
+// What touches the tip: the estimate of the external wrench, its topics, its picture and its health.
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <live_stiffness/TipContact.h>
+#include <ros/node_handle.h>
+
+#include <memory>
+#include <string>
+
+#include "live_stiffness/estimation/tip_wrench_estimator.h"
+#include "ros/markers.h"
+#include "ros/node_parameters.h"
+
+namespace live_stiffness {
+
+class ContactOutput {
+ public:
+  // Advertises ~tip_wrench_estimate and ~tip_contact. parameters must outlive this.
+  ContactOutput(ros::NodeHandle private_node, const NodeParameters& parameters);
+
+  // A tracker pose: estimates and publishes. pressures: newest, gauge, Pa, one per chamber; known: wrench at T that the
+  // model is given; measured_X_BT: nullptr if the tracker has lost its sensor, so that it is predicted only.
+  void update(PressuresRef pressures, const Wrench& known, const Pose* measured_X_BT, const ros::Time& stamp);
+  // Begins anew, as after another registration.
+  void reset() { estimator_->reset(); }
+  // Another scene or other options.
+  void adopt(std::unique_ptr<TipWrenchEstimator> estimator) { estimator_ = std::move(estimator); }
+
+  // False too when the newest estimate is older than pose_timeout.
+  bool inContact() const;
+  // The force at the tip, while in contact.
+  visualization_msgs::MarkerArray markers(const MarkerStyle& style, const ros::Time& stamp) const;
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+ private:
+  // Largest standard deviation of the force along any direction, N.
+  double forceDeviation() const;
+
+  const NodeParameters& parameters_;
+  std::unique_ptr<TipWrenchEstimator> estimator_;
+  ros::Time updated_;  // when the newest estimate was made
+  std::string fault_;  // of the newest pose; empty: none
+  ros::Publisher wrench_publisher_, contact_publisher_;
+};
+
+}  // namespace live_stiffness

@@ -1,0 +1,45 @@
+#pragma once
+// A bag that is there whole or not at all, whatever happens to the disk.
+
+#include <rosbag/bag.h>
+
+#include <memory>
+#include <string>
+
+#include "part_file.h"
+
+namespace live_stiffness {
+
+class OutputBag {
+ public:
+  // Creates the file beside its place (see PartFile). This and all that follows throws ConfigurationError with path and
+  // reason on failure.
+  explicit OutputBag(const std::string& path);
+  // Without finish() nothing is left.
+  ~OutputBag();
+
+  template <class Message>
+  void write(const std::string& topic, const ros::Time& time, const Message& message) {
+    guard([&] { bag_->write(topic, time, message); });
+  }
+  // All has been written: closes the bag and gives it its name.
+  void finish();
+
+ private:
+  template <class Action>
+  void guard(Action action) {
+    try {
+      action();
+    } catch (const rosbag::BagException& error) {
+      fail(error.what());
+    }
+  }
+  [[noreturn]] void fail(const std::string& reason);
+  void abandon();
+
+  std::string path_;
+  PartFile part_;
+  std::unique_ptr<rosbag::Bag> bag_;
+};
+
+}  // namespace live_stiffness
