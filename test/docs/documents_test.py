@@ -2,7 +2,7 @@
 """What README.md, CONTRIBUTING.md and docs/*.md tell people to do is possible: BUILD_DIR SOURCE_DIR.
 
 Links lead somewhere; commands name programs, scripts, launch files, options and arguments that exist; scenes and
-parameter files shown are accepted by the programs that would read them.
+parameter files shown are accepted by the programs that would read them; the README's C++ is examples/solve.cpp.
 """
 import pathlib
 import re
@@ -126,7 +126,14 @@ def check_yaml(page, text):
                     failures.append("%s: %s.yaml: stiffness_node has no parameter %s" % (page.name, name.group(1), key))
 
 
+def check_example():
+    shown = re.search(r"^```cpp\n(.*?)^```", (SOURCE / "README.md").read_text(), re.M | re.S)
+    if shown is None or shown.group(1) != (SOURCE / "examples/solve.cpp").read_text():
+        failures.append("README.md: the C++ shown is not examples/solve.cpp")
+
+
 def main():
+    check_example()
     pages = [SOURCE / "README.md", SOURCE / "CONTRIBUTING.md"] + sorted((SOURCE / "docs").glob("*.md"))
     for page in pages:
         text = page.read_text()
