@@ -23,7 +23,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 
 PAGE = """# The paper's figures and tables, recomputed
 
-Written by `scripts/reproduce`; do not edit. The paper: Y. Shi et al., *Stiffness modelling and analysis of soft
+Written by `scripts/reproduce`; do not edit. The paper: J. Shi et al., *Stiffness modelling and analysis of soft
 fluidic-driven robots using Lie theory*, IJRR 2024. `scripts/reproduce --only figure8` redoes one figure or table.
 
 What its text determines is recomputed and set beside its numbers. Its text leaves out the modulus, the pitch radius of

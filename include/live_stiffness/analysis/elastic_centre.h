@@ -19,8 +19,8 @@ struct ElasticCentre {
   Vector3 coupling = Vector3::Zero(); // diagonal of the coupling block in them, ascending; N for K, 1/N for C
 };
 
-// Always solvable for a stable robot: needs only the translational block of K, or the rotational one of C, to be
-// positive definite. Of an unsymmetric matrix (dead tip moment) the symmetric part counts.
+// Exists for every stable robot: only the translational block of K, or the rotational block of C, must be positive
+// definite. Of an unsymmetric matrix (dead tip moment) the symmetric part is used.
 ElasticCentre centreOfStiffness(const Matrix6& K);
 ElasticCentre centreOfCompliance(const Matrix6& C);
 

@@ -15,15 +15,15 @@ struct Ellipsoid {
 
 // Eigenvalues ascending and eigenvectors of the symmetric part of `block`. Sign of the axes: the largest component of
 // the first two is positive and the third completes a right-handed basis, so that an ellipsoid does not flip between
-// updates. Negative eigenvalues (an unstable equilibrium) are kept. Any size of entries will do, from 1e-300 to 1e300;
-// an eigenvalue is good to rounding of the largest one. Where some are equal, their directions are any orthonormal
-// ones. block must be finite.
+// updates. Negative eigenvalues (an unstable equilibrium) are kept. Entries may have any size from 1e-300 to 1e300; the
+// error of an eigenvalue is rounding, relative to the largest one. Equal eigenvalues have arbitrary orthonormal
+// directions. block must be finite.
 Ellipsoid ellipsoidOf(const Matrix3& block);
 
 // Both ellipsoids of a 6x6 matrix. Of a compliance C: displacement under all unit forces (m/N) and rotation under all
-// unit moments (rad/(N m)), everything else free. Of a stiffness K: force that unit displacements take (N/m) without
-// rotation, moment that unit rotations take (N m/rad) without displacement. So that of K is not the inverse of that of
-// C, unless the coupling is zero. About another point the rotational one of C and the translational one of K stay.
+// unit moments (rad/(N m)), all other motion free. Of a stiffness K: force for all unit displacements without rotation
+// (N/m), moment for all unit rotations without displacement (N m/rad). So the ellipsoid of K is the inverse of that of C only
+// if the coupling block is zero. The rotational one of C and the translational one of K are the same about every point.
 struct EllipsoidPair {
   Ellipsoid translation, rotation;
 };

@@ -1,7 +1,7 @@
 #pragma once
 // Creep of a segment under pressure: one exponential mode, in front of the static model.
 //
-// Of a step of pressure the share a acts late, with the time constant tau: the model is given
+// After a step of pressure, a share a of the effect comes later, with the time constant tau. The model gets
 //   P_eff = (1 - a) P + a y,   tau dy/dt = P - y.
 // T is double, or a type that carries derivatives.
 
@@ -19,8 +19,8 @@ class CreepFilterOf {
   // share: 0 to below 1; time: s, positive.
   CreepFilterOf(const T& share, const T& time) : share_(share), time_(time) {}
 
-  // Effective pressures, Pa, for pressures that held since the last call, `elapsed` s ago. The first call settles the
-  // filter: its pressures are taken to have been there for long. Allocates only then.
+  // Effective pressures, Pa, for pressures that were constant since the last call, `elapsed` s ago. The first call puts the
+  // filter into its steady state, as if its pressures had been there for a long time. Allocates only then.
   const Values& update(PressuresRef pressures, double elapsed) {
     using std::exp;
     if (late_.size() != pressures.size()) late_ = pressures.cast<T>();

@@ -1,5 +1,5 @@
 #pragma once
-// The four figures by which errors are reported everywhere: mean, RMS, 95th percentile and maximum.
+// The four numbers with which errors are reported everywhere: mean, RMS, 95th percentile and maximum.
 
 #include <string>
 #include <vector>
@@ -14,7 +14,7 @@ struct ErrorSummary {
   double max = 0.0;
 };
 
-// Summary of error magnitudes, which must not be negative. A NaN among them makes every figure NaN.
+// Summary of error magnitudes, which must not be negative. A NaN among them makes every number NaN.
 ErrorSummary summarizeErrors(std::vector<double> errors);
 
 // "mean 0.67, RMS 0.81, p95 1.60, max 2.31 mm (1094 samples)" of errors in metres.

@@ -13,7 +13,7 @@ namespace live_stiffness {
 // Everything known about the robot at one set of rod lengths.
 struct ParallelEstimate {
   std::vector<double> lengths;      // of the rods between base and platform, m, in the order of the scene
-  Wrench wrench = Wrench::Zero();   // dead wrench on the platform at P beside its weight, base axes
+  Wrench wrench = Wrench::Zero();   // dead wrench on the platform at P, without its weight, base axes
   ParallelSolution solution;
   Matrix6 stiffness = Matrix6::Zero();  // inverse of solution.compliance
   EllipsoidPair ellipsoids;             // of solution.compliance, half axes in m/N and rad/(N m)
@@ -28,8 +28,8 @@ class ParallelEstimator {
   // Throws ConfigurationError on bad options or scene.
   ParallelEstimator(ParallelScene scene, const ParallelOptions& options);
 
-  // Solve for new lengths (m), or for a new wrench on the platform (base axes) once lengths are known; true if that
-  // was done and gave an estimate. The same input as last time is not solved again.
+  // Solves for new lengths (m), or for a new wrench on the platform (base axes) once lengths are known. True if it was
+  // solved and gave an estimate. The same input as last time is not solved again.
   bool setLengths(const std::vector<double>& lengths);
   bool setWrench(const Wrench& wrench);
 

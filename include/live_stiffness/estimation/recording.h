@@ -23,8 +23,8 @@ struct RecordedSample {
   Pressures pressures;  // one per channel, Pa; absolute or gauge as Recording::absolute says
   std::optional<Vector3> base_position;  // p_A of the base sensor, m
   Vector3 tip_position = Vector3::Zero();  // p_AS of the tip sensor, m
-  // Orientation q_AS of the tip sensor, unit norm; of the two signs of the same rotation the one nearer to the sample
-  // before, so that components are continuous in time.
+  // Orientation q_AS of the tip sensor, unit norm. Of the two signs of one rotation it has the one that is nearer to the
+  // previous sample, so that the components are continuous in time.
   Eigen::Quaterniond tip_orientation = Eigen::Quaterniond::Identity();
   std::optional<Wrench> tip_wrench;  // [f; m] as recorded: in the sensor's axes, at the sensor; N and N m
 
@@ -48,14 +48,14 @@ Recording loadRecording(const std::string& path);
 // The same from text; `name` stands for the path in messages.
 Recording parseRecording(const std::string& csv, const std::string& name);
 
-// Gauge pressures per sample (Pa). Of an absolute recording: less the mean of each channel over the first rest_window
-// seconds, which must be a rest (the first sample alone if the window is shorter than a sample period). Of a gauge
+// Gauge pressures of each sample (Pa). Absolute recording: minus the mean of each channel over the first rest_window
+// seconds, in which the robot must be at rest (the first sample only, if the window is shorter than a sample period). Gauge
 // recording: as they are.
 std::vector<Pressures> gaugePressures(const Recording& recording, double rest_window = 0.5);
 
-// What counts as quasi-static. A channel moves between two samples, at most `window` apart or with none between, whose
-// pressures differ by more than `change`; samples from `before` ahead of the first of the two to `after` past the second
-// are dropped.
+// Which samples are quasi-static. The robot moves between two samples whose pressures differ by more than `change` in any
+// channel, if they are neighbours or at most `window` apart. Samples from `before` the first of the two until `after` the
+// second are left out; all others are quasi-static.
 struct QuasiStaticRule {
   double change = 2000.0;  // Pa
   double window = 0.25;    // s

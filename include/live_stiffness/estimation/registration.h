@@ -11,9 +11,9 @@ struct Registration {
   static constexpr double kLargestDelay = 1.0;  // s, either way
   Pose X_AB;  // base plate B in the tracker frame A, m
   Pose X_TS;  // tracker sensor S on the tip: offset from T in axes of T (m), and its constant rotation
-  double tracker_delay = 0.0;  // s by which the tracker's poses are late against the pressures; see tracker_delay.h
+  double tracker_delay = 0.0;  // s by which the tracker's poses are later than the pressures; see tracker_delay.h
 
-  // Pose of the sensor in A for a tip pose in B, and the way back.
+  // Pose of the sensor in A for a tip pose in B, and the inverse.
   Pose sensorPose(const Pose& X_BT) const { return X_AB * X_BT * X_TS; }
   Pose tipPose(const Pose& X_AS) const { return X_AB.inverse() * X_AS * X_TS.inverse(); }
 };

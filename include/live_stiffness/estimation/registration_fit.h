@@ -9,8 +9,8 @@
 
 namespace live_stiffness {
 
-// How small a singular value of the scaled problem counts as "the data do not determine this": a position error e of
-// the model or tracker then moves the sensor offset by more than e / kWeakSensitivity.
+// A direction whose singular value in the scaled problem is below this is not determined by the data: a position error e of
+// the model or the tracker would change the sensor offset by more than e / kWeakSensitivity.
 constexpr double kWeakSensitivity = 0.01;
 
 struct RegistrationFit {
@@ -18,12 +18,12 @@ struct RegistrationFit {
   std::vector<double> residuals;           // |p_AS predicted - measured| per sample, m
   ErrorSummary position;                   // of the residuals, m
   ErrorSummary rotation;                   // angle between predicted and measured sensor orientation, rad
-  bool base_rotation_determined = false;   // false: some rotation of the base fits as well; the start's was kept
-  bool sensor_offset_determined = false;   // false: some offset fits as well; that component was left at zero
+  bool base_rotation_determined = false;   // false: other rotations of the base fit equally well; the guess was kept
+  bool sensor_offset_determined = false;   // false: other offsets fit equally well; that component was left at zero
   double weakest_sensitivity = 0.0;        // smallest singular value: m of sensor motion per m of offset, or per
                                            // turn of the base that moves the tip by 1 m at its rms distance
   bool determined() const { return base_rotation_determined && sensor_offset_determined; }
-  // What to do about it, for people; empty when everything is determined.
+  // What the user can do about it; empty when everything is determined.
   std::string advice() const;
 };
 
@@ -31,10 +31,10 @@ struct RegistrationFit {
 //   sum_i | X_AB (p_BT_i + R_BT_i p_TS) - p_AS_i |^2,
 // by Gauss-Newton with p_AB eliminated, started from two independent guesses of R_AB (positions by Kabsch's method with
 // no offset; rotation vectors from the mean orientation by the same method, whatever the offset); then the sensor's
-// rotation R_TS as the mean of (R_AB R_BT_i)^T R_AS_i. A component of offset and rotation that the motion does not
-// determine is left where the start has it: offset zero, and the flags say so. Bending towards one side only, for
-// example, cannot tell an offset across that plane from a shift of the base.
-// X_BT: predicted, X_AS: measured, of the same instants. Throws ConfigurationError on different sizes, fewer than
+// rotation R_TS as the mean of (R_AB R_BT_i)^T R_AS_i. Components of offset and rotation that the motion does not
+// determine keep their starting value (offset: zero), and the flags say so. For example, when the robot bends in one plane
+// only, an offset normal to that plane looks the same as a shift of the base.
+// X_BT: predicted, X_AS: measured, at the same times. Throws ConfigurationError on different sizes, fewer than
 // 3 samples, or values that are not finite.
 RegistrationFit fitRegistration(const std::vector<Pose>& X_BT, const std::vector<Pose>& X_AS);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Creep of a whole robot along a stream of stamped pressures: what the static model is to be given.
+// Creep of a whole robot for a stream of stamped pressures: the effective pressures that the static model gets.
 
 #include "live_stiffness/estimation/creep.h"
 #include "live_stiffness/rod/scene.h"
@@ -12,9 +12,9 @@ class SceneCreep {
   explicit SceneCreep(const Scene& scene);
 
   bool exists() const { return share_ > 0.0; }
-  // Effective pressures (Pa, one per chamber) at `time` (s) of pressures measured then. The first call settles the
-  // creep, and so does one that goes back in time by more than a second (a clock set anew); one that goes back by less
-  // counts as no time at all.
+  // Effective pressures (Pa, one per chamber) at `time` (s) for pressures measured then. The first call starts in the
+  // steady state, and so does a call whose time is more than a second earlier than the last one (a clock that was set back).
+  // A time that is earlier by less counts as the same time.
   const Pressures& update(PressuresRef pressures, double time);
 
  private:

@@ -1,20 +1,20 @@
 #pragma once
 // The four even functions of a rotation angle t that the exponential of SO(3) and its derivatives are made of:
 //   a = sin(t) / t,  b = (1 - cos(t)) / t^2,  c = (t - sin(t)) / t^3,  d = (1 - a / (2 b)) / t^2.
-// All are analytic at t = 0. They take x = t^2, and come from series in x below a switch angle and from the closed form
-// above. Relative error below 6e-16 (of a near its zero at pi: absolute; of b and d towards 2 pi: times t / (2 pi - t),
-// which is what the rounding of x costs). Inline, because rod code lives on them. The switch is an argument so that
-// tests can force either branch at the same angle.
+// All are analytic at t = 0. Their argument is x = t^2. Below a switch angle they are series in x, above it closed forms.
+// Relative error below 6e-16. (For a near its zero at pi: absolute error. For b and d towards 2 pi: times t / (2 pi - t),
+// the effect of rounding x.) Inline, because they are called very often. The switch is an argument so that tests can
+// force either branch at the same angle.
 
 #include <cmath>
 
 namespace live_stiffness {
 
-// Below this angle (rad) a, b, c: Taylor series of ten terms, the first one left out is below 5e-17 of the sum.
-// Above: closed form, in which c loses less than two bits.
+// Below this angle (rad) a, b and c are Taylor series of ten terms; the first term left out is below 5e-17 of the sum.
+// Above it they are closed forms, in which c loses less than two bits.
 constexpr double kSeriesBelowAngle = 1.45;
 
-// The same of d, whose closed form has a difference of b and a/2 that only loses no digits once a is negative.
+// The same for d. Its closed form has the difference of b and a/2, which loses no digits only where a is negative.
 constexpr double kPoleSeriesBelowAngle = 3.14159265358979323846;
 
 namespace angle_series {

@@ -46,12 +46,12 @@ inline Vector3 bodyRateToVectorRate(const Vector3& w, const Vector3& u,
   return u + 0.5 * w_cross_u + angleD(w.squaredNorm(), series_below) * w.cross(w_cross_u);
 }
 
-// The rotation near a product of many rotations: one Newton-Schulz step R (3 I - R^T R) / 2. What R lacks of
-// orthonormality, e = |R^T R - I|, becomes 3/4 e^2 plus rounding, so one step suffices for e < 1e-8.
+// The rotation next to a product of many rotations: one Newton-Schulz step R (3 I - R^T R) / 2. The orthonormality error
+// e = |R^T R - I| becomes 3/4 e^2 plus rounding, so one step is enough for e < 1e-8.
 //
-// Each plain product adds some 1e-16 to e: by chance over different rotations (3e-12 after a million), steadily if one
-// is repeated (1e-10). So apply this after every product of an endless chain, or every ten for 1e-14. The chains of a
-// robot (elements and links, some dozens) do without, so Pose::operator* stays a plain product.
+// Each product adds about 1e-16 to e: with random sign for different rotations (3e-12 after a million products), with the same
+// sign if one rotation is repeated (1e-10). In an endless chain apply this after every product, or after every ten for 1e-14.
+// The chain of a robot (some dozens of elements and links) does not need it, so Pose::operator* is a plain product.
 inline Matrix3 orthonormalised(const Matrix3& R) {
   const Matrix3 defect = Matrix3::Identity() - R.transpose() * R;
   return R + 0.5 * R * defect;

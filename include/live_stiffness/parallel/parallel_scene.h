@@ -11,8 +11,8 @@
 
 namespace live_stiffness {
 
-// A rod, straight when unloaded, clamped at both ends. Its ends have z along the rod; where both have the same
-// orientation it is not twisted.
+// A rod, straight when unloaded, clamped at both ends. The frames of its ends have z along the rod; if both have the same
+// orientation the rod is not twisted.
 struct ParallelRod {
   CrossSection section;  // without chambers
   Pose X_BR;             // where it leaves the base, m

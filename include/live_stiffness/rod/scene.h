@@ -20,7 +20,7 @@ struct Segment {
   double mass() const { return section.linearDensity() * length; }  // kg
 };
 
-// Rigid piece along z.
+// Rigid part along z.
 struct Link {
   double length = 0.0;  // m
   double mass = 0.0;    // kg, acts at its middle

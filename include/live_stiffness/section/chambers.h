@@ -1,5 +1,5 @@
 #pragma once
-// Pressure chambers of one segment: where they sit in the section, and the wrench that their pressures exert.
+// Pressure chambers of one segment: where they are in the section, and the wrench that their pressures exert.
 //
 // T is double, or a type that carries derivatives.
 
@@ -28,14 +28,14 @@ struct ChambersOf {
   T radius = T(0.0);        // r_P, m
   T pitch_radius = T(0.0);  // r_o at stretch 1, m
   std::vector<T> azimuths;  // phi_k from the x towards the y axis of the section, rad; one per chamber
-  // gamma, 1/Pa: a chamber swells under its pressure and pushes on A_P (1 + gamma P). 0: the braid holds it, as in the
-  // paper. Below 1 / (2 atm), so that more pressure always pushes more, down to vacuum.
+  // gamma, 1/Pa: a chamber swells under its pressure and pushes on the area A_P (1 + gamma P). 0: the braid prevents
+  // this, as in the paper. Below 1 / (2 atm), so that the force grows with the pressure everywhere, from vacuum up.
   T area_growth = T(0.0);
 
   int count() const { return static_cast<int>(azimuths.size()); }
   T area() const { return kPi * radius * radius; }  // A_P of one chamber without pressure, m^2
 
-  // Pressure that would push as much on A_P: P (1 + gamma P), Pa.
+  // Pressure on A_P that gives the same force: P (1 + gamma P), Pa.
   T effectivePressure(const T& pressure) const { return pressure + area_growth * pressure * pressure; }
 
   // Centre d_k of chamber k in section axes at the given stretch (23), m.

@@ -1,6 +1,6 @@
 #pragma once
-// Which pressure channel feeds which chamber. A regulator often drives several chambers at once: the recorded robot
-// has three channels, each of which fills a pair of its six chambers.
+// Which pressure channel feeds which chamber. One regulator often feeds several chambers: the recorded robot has three
+// channels, each for a pair of its six chambers.
 
 #include <vector>
 
@@ -11,11 +11,11 @@ namespace live_stiffness {
 class ChannelMap {
  public:
   // channel_of_chamber: for each chamber, base to tip in the order of the scene, the index of its channel, from 0.
-  // Throws ConfigurationError on an empty list, an index outside 0 to kMaxChannels - 1, and a channel below the highest
-  // one that feeds no chamber: that is a typing error far more often than a spare regulator.
+  // Throws ConfigurationError on an empty list, an index outside 0 to kMaxChannels - 1, and an index below the highest
+  // one that no chamber has: that is much more often a typing error than an unused regulator.
   explicit ChannelMap(std::vector<int> channel_of_chamber);
 
-  // Channel k feeds the k-th group of chambers / channels neighbours: even(3, 6) is {0, 0, 1, 1, 2, 2}, even(n, n) the
+  // Neighbouring chambers in groups of equal size, one for each channel: even(3, 6) is {0, 0, 1, 1, 2, 2}, even(n, n) the
   // identity. Throws ConfigurationError unless both are positive and chambers is a multiple of channels.
   static ChannelMap even(int channels, int chambers);
 

@@ -21,16 +21,16 @@ struct RestStateOf {
   T stretch = T(1.0);                                             // lam, -
   Vector3Of<T> curvature = Vector3Of<T>::Constant(T(0.0));  // u_rest, 1/m of stretched length, in section axes
   ComplianceDensityOf<T> c;                                       // at the section this state ends with
-  bool valid = true;  // false: the section has no positive area or stiffness at `stretch`, the last one reached; nothing
-                      // else holds
+  bool valid = true;  // false: at `stretch`, the last one reached, the section has no positive area or stiffness; then
+                      // nothing else holds
 };
 using RestState = RestStateOf<double>;
 
 // Number of fixed steps for the largest pressure magnitude of the whole robot: max(1, ceil(max |P| / pressure_step)).
-// A quotient within 1e-9 of a whole number counts as that number, so that 1.2 bar printed and read back stays 8 steps.
+// A quotient within 1e-9 of a whole number counts as that number, so that 1.2 bar, printed and read back, is still 8 steps.
 int stepCount(double largest_pressure, double pressure_step);
 
-// Load stepping of one segment, with what it needs of the section worked out once.
+// Load stepping of one segment; what depends on the section only is computed once.
 template <class T>
 class LoadStepperOf {
  public:
