@@ -4,7 +4,7 @@
 #include <iostream>
 
 #include "live_stiffness/checks.h"
-#ifdef LIVE_STIFFNESS_WITH_ROS
+#ifdef LIVE_STIFFNESS_WITH_BAGS
 #include "ros/recorded_bag.h"
 #endif
 
@@ -20,7 +20,7 @@ Recording withWarningsPrinted(Recording recording, const std::string& path) {
 
 }  // namespace
 
-#ifdef LIVE_STIFFNESS_WITH_ROS
+#ifdef LIVE_STIFFNESS_WITH_BAGS
 
 void RecordingReader::addOptionsTo(boost::program_options::options_description& options) { bag_.addTo(options); }
 

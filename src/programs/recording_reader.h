@@ -5,7 +5,7 @@
 #include <string>
 
 #include "live_stiffness/estimation/recording.h"
-#ifdef LIVE_STIFFNESS_WITH_ROS
+#ifdef LIVE_STIFFNESS_WITH_BAGS
 #include "bag_options.h"
 #endif
 
@@ -19,7 +19,7 @@ class RecordingReader {
   // error. Throws ConfigurationError when it cannot be read, or an option is not understood.
   Recording load(const std::string& path) const;
 
-#ifdef LIVE_STIFFNESS_WITH_ROS
+#ifdef LIVE_STIFFNESS_WITH_BAGS
  private:
   BagOptions bag_;
 #endif

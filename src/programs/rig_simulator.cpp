@@ -5,8 +5,7 @@
 
 #include "ros/conversions.h"
 #include "ros/node_process.h"
-#include "ros/rig_bag.h"
-#include "ros/rig_parameters.h"
+#include "rig_parameters.h"
 
 namespace {
 

@@ -39,6 +39,9 @@ struct Reading {
   bool ok() const { return fault.empty(); }
 };
 
+// frame_id of tip_force_torque. Of the simulated rig: at T, with axes of T, in the sense "on the robot".
+constexpr char kForceSensorFrame[] = "tip_force_sensor";
+
 // How a rig writes pressures down.
 struct PressureFormat {
   double unit = 1.0;  // Pa per unit of the message

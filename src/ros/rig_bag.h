@@ -8,9 +8,6 @@
 
 namespace live_stiffness {
 
-// frame_id of tip_force_torque. Of the simulated rig: at T, with axes of T, in the sense "on the robot".
-constexpr char kForceSensorFrame[] = "tip_force_sensor";
-
 class RigBag {
  public:
   // Creates the file, see OutputBag, which says what is thrown. tracker_frame: frame_id of poses.

@@ -1,4 +1,4 @@
-#include "ros/rig_parameters.h"
+#include "rig_parameters.h"
 
 #include <ros/console.h>
 
