@@ -20,7 +20,7 @@ bool Backbone::resize(int stages) {
   const size_t count = std::accumulate(element_count.begin(), element_count.end(), size_t{0});
   bool changed = count != elements.size() || stages != passes->stages;
   if (!changed) {
-    // The same number in all may still be shared out differently.
+    // The total may be the same although single segments have other numbers.
     size_t next = 0;
     for (size_t segment = 0; segment < element_count.size(); ++segment)
       for (int k = 0; k < element_count[segment]; ++k)

@@ -10,7 +10,7 @@ namespace live_stiffness {
 
 // Mutable result of a solve; built once for a scene, then reused without allocation.
 struct Backbone {
-  const ElementPasses* passes;         // how the elements are computed, all alike
+  const ElementPasses* passes;         // functions that compute the elements; the same for all
   std::vector<RestState> rest;         // one per segment
   std::vector<int> element_count;      // one per segment
   std::vector<RodElement> elements;    // base to tip, element_count[k] of segment k; inside `capacity`
@@ -24,8 +24,8 @@ struct Backbone {
   int firstElement(int segment) const;
   // Stretched length of a segment, m.
   double length(int segment) const { return element_count[segment] * elements[firstElement(segment)].state.length; }
-  // Makes as many elements as element_count says, of so many stages. True if that changed anything: nodes and columns
-  // then hold no guess.
+  // Makes element_count elements with this number of stages. True if that changed anything: nodes and sensitivities then
+  // hold no guess.
   bool resize(int stages);
   // X_BT from numbers, R row-major.
   void setTip(const double (&R)[9], const double (&p)[3]);

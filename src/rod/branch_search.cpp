@@ -8,15 +8,15 @@
 namespace live_stiffness {
 namespace {
 
-constexpr int kMemory = 5;              // steps that the next one is extrapolated from
-constexpr double kFirstAdvance = 0.25;  // share of a leg
-constexpr double kLeastAdvance = 1e-3;  // from zero load on: then it is time to go around
+constexpr int kMemory = 5;              // number of steps from which the next one is extrapolated
+constexpr double kFirstAdvance = 0.25;  // share of the way to the target
+constexpr double kLeastAdvance = 1e-3;  // from zero load; when steps become smaller, go around
 constexpr double kLeastAdvanceAround = 1e-5;
-constexpr double kMostBending = 0.5;    // rad, by which a step may miss what the last ones let expect
-constexpr double kMostMiss = 0.4;       // the same of the tip, over the length
-constexpr double kMotionAimed = 0.35;   // of the tip in a step, over the length; the next one is as long as that lets expect
+constexpr double kMostBending = 0.5;    // rad, largest difference of a step from its extrapolation
+constexpr double kMostMiss = 0.4;       // the same for the tip, divided by the length
+constexpr double kMotionAimed = 0.35;   // motion of the tip in a step, divided by the length, that sets the size of the next
 constexpr double kFoldGrowth = 5.0;
-constexpr double kPush = 0.05;          // deflection by the push, were the robot unloaded, over its length
+constexpr double kPush = 0.05;          // deflection of the unloaded robot by the push, divided by its length
 
 DeadLoads between(const DeadLoads& a, const DeadLoads& b, double share) {
   return {(1.0 - share) * a.gravity + share * b.gravity, (1.0 - share) * a.tip + share * b.tip};
@@ -27,7 +27,7 @@ DeadLoads withForce(DeadLoads loads, const Vector3& force) {
   return loads;
 }
 
-// Largest translation that a unit force at the tip can cause (m/N), and the force's direction.
+// Largest translation that a unit force at the tip can cause (m/N), and the direction of that force.
 struct SoftestDirection {
   Vector3 direction;
   double compliance;
@@ -39,8 +39,8 @@ struct SoftestDirection {
   }
 };
 
-// Where the robot is giving way: the tip's last motion as far as it is along soft directions. Of a straight column,
-// which has not moved sideways, any soft direction.
+// Direction in which the robot yields: the last motion of the tip, weighted by the compliance. For a straight column, which
+// has not moved laterally, the most compliant direction.
 Vector3 directionOfCollapse(const Matrix3& C, const Vector3& moved) {
   const SoftestDirection softest(C);
   const Vector3 softly = C * (C * moved);
@@ -48,7 +48,7 @@ Vector3 directionOfCollapse(const Matrix3& C, const Vector3& moved) {
   return softest.direction;
 }
 
-// The last steps of a leg, to extrapolate the next one from.
+// The last steps towards a target, from which the next one is extrapolated.
 class Path {
  public:
   Path(double share, const Equilibrium& at) {
@@ -70,11 +70,11 @@ class Path {
   }
   void keep(int count) { known_ = std::min(known_, count); }
 
-  // Where the next step is expected to end.
+  // Extrapolated end of the next step.
   Equilibrium at(double share) const {
     Equilibrium expected;
     for (int i = 0; i < known_; ++i) {
-      double weight = 1.0;  // Lagrange's
+      double weight = 1.0;  // of Lagrange's polynomial
       for (int j = 0; j < known_; ++j)
         if (j != i) weight *= (share - reached_[j]) / (reached_[i] - reached_[j]);
       expected.base_moment += weight * moments_[i];
@@ -84,7 +84,7 @@ class Path {
   }
 
  private:
-  std::array<double, kMemory> reached_{};  // shares of the leg, newest first
+  std::array<double, kMemory> reached_{};  // shares of the way, newest first
   std::array<Vector3, kMemory> moments_, tips_;
   int known_ = 0;
 };
@@ -96,9 +96,9 @@ bool BranchSearch::jumped(const Equilibrium& at, const Equilibrium& expected) co
          (at.p_BT - expected.p_BT).norm() > kMostMiss * length_;
 }
 
-// One straight leg from the loads reached so far, in steps of adaptive size. The base moment of the next step is
-// extrapolated from the last ones: on a long hanging chain a shot strays exponentially, so that a moment scaled with
-// the load would not do. A step that ends elsewhere than that lets expect may have jumped to another branch.
+// From the loads reached so far straight to the target, in steps of adaptive size. The base moment of the next step is
+// extrapolated from the last ones; to scale it with the load would not be accurate enough, since errors grow exponentially
+// along a long hanging chain. A step that ends far from its extrapolation may have jumped to another branch.
 bool BranchSearch::follow(const DeadLoads& target, double least_advance) {
   const DeadLoads start = loads_;
   Path path(0.0, at_);
@@ -115,7 +115,7 @@ bool BranchSearch::follow(const DeadLoads& target, double least_advance) {
     if (!next || !next->stable || jumped(*next, expected)) {
       lost_stability_ = next.has_value();
       advance *= 0.4;
-      if (next && ++rejected > 2) path.keep(2);  // it is not as smooth as it looked
+      if (next && ++rejected > 2) path.keep(2);  // the branch is less smooth than the extrapolation assumes
       continue;
     }
     share_ = trial;
@@ -141,7 +141,7 @@ bool BranchSearch::runBriskly(const DeadLoads& loads, const Equilibrium& unloade
   return true;
 }
 
-// True if the loads were reached beside the first branch; then `end` says what taking the push away led to.
+// Goes around with this push. True if the loads were reached; then `end` is the result of removing the push.
 bool BranchSearch::goAround(const DeadLoads& target, const Vector3& push, BranchEnd& end) {
   if (!follow(withForce(loads_, push), kLeastAdvanceAround) || !follow(withForce(target, push), kLeastAdvanceAround))
     return false;
@@ -157,7 +157,7 @@ BranchEnd BranchSearch::run(const DeadLoads& loads) {
   const bool followed = follow(loads, kLeastAdvance);
   stable_share_ = share_;
   if (followed) return BranchEnd::kLoading;
-  // At a fold there is nothing beyond to settle to; but the compliance has grown, as the inverse root of what is left.
+  // Just beyond a fold there is no equilibrium nearby. But before it the compliance grows, as 1 / sqrt(distance to the fold).
   const double compliance = SoftestDirection(at_.tangent.topLeftCorner<3, 3>()).compliance;
   const double unloaded_compliance = SoftestDirection(unloaded->tangent.topLeftCorner<3, 3>()).compliance;
   const bool at_fold = compliance > kFoldGrowth * unloaded_compliance;
@@ -170,7 +170,7 @@ BranchEnd BranchSearch::run(const DeadLoads& loads) {
   for (double sign : {1.0, -1.0}) {
     loads_ = last_stable;
     at_ = before;
-    if (goAround(loads, sign * push, end)) return end;  // when the push cannot go, a neutral equilibrium is at its end
+    if (goAround(loads, sign * push, end)) return end;  // kUnstable: a neutral equilibrium
   }
   return end;
 }

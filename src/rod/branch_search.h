@@ -1,12 +1,13 @@
 #pragma once
-// Follows the equilibrium of a robot as its loads grow from zero, and keeps to stable ones.
+// Load continuation: follows the stable equilibrium of a robot while its loads grow from zero.
 //
-// A robot that bends under its loads has one branch of equilibria that starts at zero load. It may lose its stability
-// on the way: at a bifurcation (a standing column starts to lean) or at a fold (it snaps). The search notices, because
-// the tangent compliance must stay positive definite from step to step and the base moment must not jump, and then goes
-// around: a small sideways force at the tip, the way it is giving, is added just before that load, the loads grow
-// to their full size beside it, and it is taken away again. What is left is the stable branch that the first one gives
-// way to. A symmetric column, which may lean in any direction, ends in a neutral equilibrium; that is not stable.
+// A robot that bends under its loads has one branch of equilibria that starts at zero load. The branch may lose its
+// stability: at a bifurcation (a standing column starts to lean) or at a fold (the robot snaps through). The search detects
+// this, since the tangent compliance must stay positive definite from step to step and the base moment must not jump. Then it
+// goes around that point: just before it, a small lateral force at the tip is added, in the direction in which the robot
+// yields; the loads grow to their full size, and the small force is removed. The result is the stable branch to which the
+// robot moves when the first one becomes unstable. A symmetric column, which may lean in any direction, ends in a neutral
+// equilibrium, which is not stable.
 
 #include <optional>
 
@@ -25,9 +26,9 @@ struct Equilibrium {
 class EquilibriumFinder {
  public:
   virtual ~EquilibriumFinder() = default;
-  // The equilibrium that a few steps from the guessed base moment lead to, if they do.
+  // The equilibrium to which the solver converges from the guessed base moment, if it does.
   virtual std::optional<Equilibrium> settle(const DeadLoads& loads, const Vector3& base_moment) = 0;
-  // Moment as bending of the softest segment over its length, rad.
+  // Moment as bending of the most compliant segment over its length, rad.
   virtual double bendingOf(const Vector3& moment) const = 0;
   // True once the bound on iterations is reached.
   virtual bool exhausted() const = 0;
@@ -35,9 +36,9 @@ class EquilibriumFinder {
 
 enum class BranchEnd {
   kLoading,       // stable all the way from zero load
-  kBuckled,       // that branch loses its stability, or turns too sharply to follow; on the one that it gives way to
+  kBuckled,       // the branch from zero load loses its stability or turns too sharply; on the stable one that follows
   kUnstable,      // it loses its stability, and no stable one was found
-  kNotConverged,  // the bound on iterations, or steps grew too small
+  kNotConverged,  // the bound on iterations was reached, or steps became too small
 };
 
 class BranchSearch {
@@ -45,11 +46,11 @@ class BranchSearch {
   // length: of the robot, m.
   BranchSearch(EquilibriumFinder& finder, double length) : finder_(finder), length_(length) {}
 
-  // From zero load to `loads`. On kLoading and kBuckled the finder's last settle() was the result.
+  // From zero load to `loads`. For kLoading and kBuckled the last settle() of the finder is the result.
   BranchEnd run(const DeadLoads& loads);
 
-  // The same in so many equal steps (at least one), for loads that are little; up to the first of them there must be one
-  // equilibrium only. unloaded: base moment and tip at zero load. Reads no tangents. True: kLoading; false: run() must tell.
+  // The same for small loads, in this number of equal steps (at least one). Up to the first step there must be only one
+  // equilibrium. unloaded: base moment and tip at zero load. Reads no tangents. True: kLoading; false: call run().
   bool runBriskly(const DeadLoads& loads, const Equilibrium& unloaded, int steps);
 
   // Share of the loads up to which the branch from zero load was seen to be stable.
@@ -63,9 +64,9 @@ class BranchSearch {
   EquilibriumFinder& finder_;
   double length_;
   DeadLoads loads_;         // reached so far
-  Equilibrium at_;          // there
+  Equilibrium at_;          // at loads_
   Vector3 moved_ = Vector3::Zero();  // of the tip in the last step, m
-  double share_ = 0.0;      // of the last leg
+  double share_ = 0.0;      // of the way from the start to the target of follow()
   bool lost_stability_ = false;
   double stable_share_ = 0.0;
 };

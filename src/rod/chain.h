@@ -1,5 +1,5 @@
 #pragma once
-// A scene prepared for solving: what a solve needs of each body, worked out once.
+// A scene prepared for solving: what a solve needs to know of each body, computed once.
 
 #include <vector>
 
@@ -26,7 +26,7 @@ struct DeadLoads {
 
   DeadLoads scaled(double factor) const { return {factor * gravity, factor * tip}; }
 
-  // Force at the base of the chain, everything beyond it: tip force and all weights, N, base axes.
+  // Force at the base of the chain: the sum of tip force and all weights, N, base axes.
   Vector3 baseForce(const Chain& chain) const { return linear(tip) + chain.mass * gravity; }
 };
 

@@ -25,20 +25,20 @@ struct ChainState {
   double tip_moment[3];      // dead, at T, N m
 };
 
-// What one pass over all elements, from base to tip, leaves.
+// Result of one iteration over all elements, from base to tip.
 struct SweepResult {
-  double R_tip[9], p_tip[3];  // of T; after anything but Pass::kOnce
-  double residual[3];         // moment at T that nothing balances, N m, base axes
+  double R_tip[9], p_tip[3];  // of T; not after Pass::kOnce
+  double residual[3];         // moment at T that no load balances, N m, base axes
   double change;              // largest change of an element
   bool sound;                 // finite, and no element bent too far
 };
 
 enum class Pass {
-  kOnce,      // one fixed-point pass an element
-  kShape,     // none, but the shape that the guess is, and where it ends
-  kFinish,    // kOnce and kShape
-  kAnew,      // every element integrated without a guess
-  kUnloaded,  // every element as if no load acted: for a guess
+  kOnce,      // one fixed-point iteration of each element
+  kShape,     // no iteration: evaluates the shape of the guess, and its end
+  kFinish,    // kOnce, then kShape
+  kAnew,      // integrates every element without a guess
+  kUnloaded,  // sets every element to its shape without loads, as a guess
 };
 
 }  // namespace live_stiffness

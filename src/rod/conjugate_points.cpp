@@ -5,7 +5,7 @@
 namespace live_stiffness {
 namespace {
 
-// All eigenvalues of a matrix that has three real ones are positive.
+// True if all eigenvalues of a matrix with three real eigenvalues are positive.
 bool hasPositiveEigenvalues(const Matrix3& G) {
   const double minors = G(0, 0) * G(1, 1) - G(0, 1) * G(1, 0) + G(0, 0) * G(2, 2) - G(0, 2) * G(2, 0) +
                         G(1, 1) * G(2, 2) - G(1, 2) * G(2, 1);

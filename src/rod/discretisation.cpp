@@ -16,19 +16,20 @@ constexpr struct {
   double cost;
 } kChoices[] = {{3, 0.5}, {5, 0.85}, {7, 1.0}};
 
-// As far as accuracy goes, rad.
+// Bending of an element that the accuracy allows, rad.
 double bendingOfAnElement(int stages, double accuracy) { return kReach[stages] * std::pow(accuracy, 0.5 / stages); }
 
 int countOf(double demand, double bending) {
   const double elements = demand / bending;
   constexpr int kMost = Backbone::kMaxElements / 2;
-  if (!(elements < kMost)) return kMost;  // NaN, too; nothing will be found
-  const int whole = static_cast<int>(elements);  // std::ceil is a call where SSE4.1 is not taken for granted
+  if (!(elements < kMost)) return kMost;  // also for NaN, with which no solve succeeds
+  const int whole = static_cast<int>(elements);  // without SSE4.1 std::ceil is a function call
   return std::max(1, whole + (elements > whole));
 }
 
-// Gauss collocation errs by the product of what two expansions leave out: the solution's own and that of its Green's
-// function, which is about alike. The factor covers 99.9 % of random cases within ten (docs/speed_against_error.md).
+// The error of Gauss collocation is the product of two truncation errors: of the solution and of its Green's function, which
+// are similar. With this factor the error of 99.9 % of random cases is below ten times the estimate
+// (docs/speed_against_error.md).
 double truncationOf(const RodElement& element, double cancellation) {
   return 16.0 * element.state.truncation * element.state.truncation + cancellation * element.state.column_truncation;
 }
@@ -40,7 +41,7 @@ Discretisation::Discretisation(const Chain& chain, double accuracy, int stages)
   for (const Chain::Part& part : chain.parts)
     if (part.segment >= 0) demand_.push_back(0.0);
   caution_ = seen_caution_ = std::vector<double>(demand_.size(), 1.0);
-  // Of a nearly straight rod the estimate says little, and few stages err by more than it: not where that would show.
+  // For a nearly straight rod the estimate is unreliable and too small for few stages, so these are not used at high accuracy.
   const int least = accuracy >= 1e-6 ? 3 : accuracy >= 1e-10 ? 5 : 7;
   for (const auto& choice : kChoices)
     if (stages == choice.stages || (stages == 0 && choice.stages >= least))
@@ -48,14 +49,14 @@ Discretisation::Discretisation(const Chain& chain, double accuracy, int stages)
   if (choices_.empty()) choices_.push_back({stages, 1.0, bendingOfAnElement(stages, accuracy)});
 }
 
-// The shape is exact whatever the stages; they decide how many nodes the sections between are read from.
+// The shape is exact with any number of stages; they only decide from how many nodes stations are interpolated.
 bool Discretisation::chooseUnloaded(Backbone& backbone) {
   constexpr double kFewNodesAccuracy = 1e-7;
   for (const Chain::Part& part : chain_.parts) {
     if (part.segment < 0) continue;
     const RestState& rest = backbone.rest[part.segment];
     const double length = rest.stretch * part.length, bending_squared = length * length * rest.curvature.squaredNorm();
-    // Most often one is enough, which takes neither root nor quotient to see.
+    // One element is enough most often; this test needs no root and no division.
     const bool one = bending_squared <= kShort * kShort;
     backbone.element_count[part.segment] = one ? 1 : countOf(std::sqrt(bending_squared), kShort);
   }
@@ -64,7 +65,7 @@ bool Discretisation::chooseUnloaded(Backbone& backbone) {
 }
 
 bool Discretisation::choose(const DeadLoads& loads, Backbone& backbone) {
-  constexpr double kBendingOfLoadNumber = 1.25;  // L sqrt(|n| c_bt) counts as so much bending
+  constexpr double kBendingOfLoadNumber = 1.25;  // rad of bending for each unit of L sqrt(|n| c_bt)
   const double moment = angular(loads.tip).norm();
   Vector3 n = loads.baseForce(chain_);
   for (const Chain::Part& part : chain_.parts) {
@@ -83,7 +84,7 @@ bool Discretisation::choose(const DeadLoads& loads, Backbone& backbone) {
 }
 
 bool Discretisation::chooseForDemand(Backbone& backbone) {
-  // One element each of the fewest stages, the cheapest choice, is enough more often than not.
+  // The cheapest choice, one element with the fewest stages for each segment, is enough most often.
   bool one_each = true;
   for (size_t k = 0; k < demand_.size(); ++k) one_each = one_each && demandOf(k) <= bendingOf(choices_.front());
   const Choice* best = &choices_.front();
@@ -111,7 +112,7 @@ double Discretisation::truncation(double cancellation, const Backbone& backbone)
 
 bool Discretisation::refine(double amplification, Backbone& backbone, double tolerated) {
   constexpr double kMargin = 1.05, kMostGrowth = 2.0, kEasierBy = 0.8;
-  constexpr int kPatience = 50;  // solves; each attempt with too little costs a second solve
+  constexpr int kPatience = 50;  // solves; an attempt with too few elements costs a second solve
   const int stages = backbone.passes->stages;
   static const double kLongest = std::pow(2.0 * std::tan(1.05), 2);  // |g|^2 of 2.1 rad
   bool wanting = false, easier = true;
@@ -128,7 +129,7 @@ bool Discretisation::refine(double amplification, Backbone& backbone, double tol
     easier = easier && !too_long && caution_[segment] > 1.0;
     if (fine && !easier) continue;
     const double capacity = count * std::min(most_, bendingOfAnElement(stages, accuracy_));
-    // Bending at which elements of so many stages would leave just this error.
+    // Bending at which elements with this number of stages would have this error.
     const double seen = std::pow(error / accuracy_, 0.5 / stages) * capacity;
     seen_caution_[segment] = std::max(1.0, kMargin * seen / demand_[segment]);
     easier = easier && seen_caution_[segment] <= kEasierBy * caution_[segment];
@@ -139,7 +140,7 @@ bool Discretisation::refine(double amplification, Backbone& backbone, double tol
     wanting = true;
     const double growth = too_long ? kMostGrowth : seen / demandOf(segment);
     caution_[segment] *= std::clamp(kMargin * growth, kMargin, kMostGrowth);  // NaN: unchanged
-    // More than what it has was chosen for.
+    // Ask for more than the present choice was made for.
     caution_[segment] = std::max(caution_[segment], kMargin * capacity / demand_[segment]);
   }
   patience_ = wanting || !easier ? kPatience : patience_ - 1;

@@ -17,19 +17,19 @@ class Discretisation {
   bool choose(const DeadLoads& loads, Backbone& backbone);
   bool chooseUnloaded(Backbone& backbone);
 
-  // Lets choose() take elements that bend less, if accuracy lets them bend so far: sweeps converge more surely on them.
+  // Makes choose() limit the bending of an element further, for more reliable convergence.
   void shorten() { most_ = kShort; }
 
-  // Estimated relative error of a finished shape and its columns. cancellation: how much larger these are than the
-  // compliance made of them.
+  // Estimated relative error of a converged shape and its sensitivities. cancellation: the size of the sensitivities divided
+  // by that of the compliance, which is computed as their difference.
   double truncation(double cancellation, const Backbone& backbone);
 
-  // Takes more stages or elements if the estimated error of a segment, times `amplification`, is above the accuracy (and
-  // what is tolerated), or if its elements bend too far for one Cayley vector. False if all is well or there are no more
-  // to take.
+  // Refines a segment (more stages or elements) if its estimated error times `amplification`, the buckling factor of
+  // StaticsReport, is above the accuracy and above `tolerated`, or if its elements bend too far for one Cayley vector. False
+  // if nothing had to, or could, be refined.
   bool refine(double amplification, Backbone& backbone, double tolerated = 0.0);
 
-  // Forgets what refine() and shorten() have told.
+  // Undoes the effect of refine() and shorten().
   void reset() {
     std::fill(caution_.begin(), caution_.end(), 1.0);
     most_ = kLong;
@@ -43,19 +43,19 @@ class Discretisation {
 
   const Chain& chain_;
   double accuracy_;
-  double most_ = kLong;  // bending of an element, rad, whatever the accuracy
+  double most_ = kLong;  // limit on the bending of an element at any accuracy, rad
   struct Choice {
     int stages;
     double cost;     // of an element, relative
-    double bending;  // that an element carries at the accuracy, rad
+    double bending;  // that one element can have at this accuracy, rad
   };
   double bendingOf(const Choice& choice) const { return std::min(most_, choice.bending); }
   std::vector<Choice> choices_;
-  std::vector<double> demand_;   // bending that counts for the number of elements, of each segment, rad; before caution
-  double cancellation_ = 1.0;    // the last given
-  std::vector<double> caution_;  // what refine() has learnt: a factor on each demand
-  std::vector<double> seen_caution_;  // what the last solution would have needed
-  int patience_ = 1;                  // solves until less caution is tried
+  std::vector<double> demand_;   // bending of each segment that decides its number of elements, rad; without caution_
+  double cancellation_ = 1.0;    // last argument of truncation()
+  std::vector<double> caution_;  // safety factor on each demand, from refine()
+  std::vector<double> seen_caution_;  // safety factors that the last solution would have needed
+  int patience_ = 1;                  // solves until smaller safety factors are tried
 };
 
 }  // namespace live_stiffness

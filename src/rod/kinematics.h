@@ -5,7 +5,7 @@
 
 namespace live_stiffness {
 
-// Fills elements, guess and X_BT from backbone.rest and the number of elements and stages that the backbone has.
+// Fills elements, guess and X_BT of the backbone, from its rest states and its number of elements and stages.
 void placeUnloaded(const Chain& chain, Backbone& backbone);
 
 }  // namespace live_stiffness

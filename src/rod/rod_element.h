@@ -1,6 +1,6 @@
 #pragma once
-// One stretch of a Cosserat rod between two arc lengths, collocated at the Gauss-Legendre nodes. The equations are in
-// src/rod/element_passes_code.h, their derivation in docs/derivation.md.
+// A part of a Cosserat rod between two arc lengths, collocated at the Gauss-Legendre nodes. The equations are in
+// src/rod/element_shape_code.h and element_section_code.h, their derivation in docs/derivation.md.
 
 #include "live_stiffness/lie/se3.h"
 #include "rod/element_passes.h"

@@ -22,12 +22,12 @@ ChainState stateOf(const Chain& chain, const DeadLoads& loads, const Vector3& ba
 
 namespace {
 
-// Change of an element's rest curvature that `rest` brings, as the turn between its ends, rad.
+// Change of an element's rest curvature, from what it has to `rest`, as an angle between its ends, rad.
 Vector3 turnOf(const ElementState& e, double length, const RestState& rest) {
   return length * rest.curvature - e.length * Vector3(e.rest_curvature);
 }
 
-// The multiple of the last change that is nearest to this one, if it is near.
+// The multiple of the last change that is nearest to this one; 0 if it is not near.
 double steadinessOf(const Chain& chain, const Backbone& backbone) {
   constexpr double kNear = 0.1, kMost = 2.0;
   double along = 0.0, last = 0.0, now = 0.0;
@@ -60,7 +60,7 @@ double prepare(const Chain& chain, const DeadLoads& loads, Backbone& backbone, H
     const RestState& rest = backbone.rest[part.segment];
     const int count = backbone.element_count[part.segment];
     const double length = rest.stretch * part.length, density = part.mass / length;
-    const double own_length = count == 1 ? length : length / count;  // what follows waits for it
+    const double own_length = count == 1 ? length : length / count;  // a division is slow, and all below depends on it
     for (int k = 0; k < count; ++k, ++element) {
       ElementState& e = element->state;
       if (keep != History::kNone) {
@@ -93,7 +93,7 @@ bool shoot(const Chain& chain, const DeadLoads& loads, const Vector3& base_momen
     const Sweep s = sweep(chain, loads, base_moment, anew ? Pass::kAnew : Pass::kFinish, backbone);
     residual = s.residual;
     if (!s.sound) return false;
-    // Rounding can leave a last-digit wobble just above the bound: stop there once it no longer shrinks.
+    // Rounding can keep the change just above the bound; then stop when it no longer shrinks.
     if (s.change <= kConverged || (s.change <= kWobble && s.change >= last_change)) return true;
     last_change = s.change;
   }

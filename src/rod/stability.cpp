@@ -30,20 +30,21 @@ bool isPositiveDefinite(const Eigen::Matrix<double, n, n>& a, const double (&lif
   return true;
 }
 
-// Of a rod without elongation the compliance is singular, and rounding decides its sign. Beyond buckling the negative
-// part is as large as the loads are small.
+// The compliance of an inextensible rod is singular, and the sign of its smallest eigenvalue is rounding. Beyond buckling
+// the negative eigenvalue is the larger, the smaller the loads are.
 constexpr double kRounding = 1e-11;
 
-// Of a neutral equilibrium rounding, or the error of discretisation, decides what is left of the compliance. So it
-// must not be larger than that of the softest segment by more than leaves a digit.
+// At a neutral equilibrium the compliance is infinite but for rounding and the error of discretisation. So it must not be
+// so much larger than that of the most compliant segment that no digit of it is left.
 bool isNeutral(double rotation, double softness, double error) {
   const double neutral = std::min(1e7, 0.1 / error);
   return !(rotation < neutral * softness);
 }
 
-// c of bending that counts against a force n, rad/(N m^2). What n does to a rod that turns by phi more is the form
-// (n . phi)(t . phi) - (n . t) |phi|^2, t the tangent: with t against n it is |n| |phi|^2 of bending alone, across it mixes
-// bending with torsion. With c that is largest against n, unless torsion is twice as soft as bending.
+// The bending compliance c that counts against a force n, rad/(N m^2). If a rod turns by phi more, the work of n is the
+// form (n . phi)(t . phi) - (n . t) |phi|^2, t the tangent. For t opposite to n this is |n| |phi|^2, of bending only; for t
+// normal to n it mixes bending with torsion. Times c it is largest for t opposite to n, unless torsion is more than twice as
+// compliant as bending.
 double softnessToForce(const Matrix3& c) {
   const double bending = std::max(c(0, 0), c(1, 1)), torsion = c(2, 2);
   return torsion > 2.0 * bending ? 0.5 * torsion / std::sqrt(torsion / bending - 1.0) : bending;
@@ -53,11 +54,11 @@ double softnessToForce(const Matrix3& c) {
 
 // Of M(s, l) = C(min(s, l)) in the measure |n| ds the largest eigenvalue is at most the root of the sum of all squared,
 //   int int C(min(s, l))^2 |n(s)| |n(l)| ds dl = sum over parts p of the same within p, and 2 |n|_p int_{s < p} C^2 |n| ds.
-// Within a segment C and |n| are taken as linear (|n| is convex, so that is at least what it is).
+// Within a segment C and |n| are interpolated linearly (|n| is convex, so this is an upper bound).
 double loadNumber(const Chain& chain, const DeadLoads& loads, const Backbone& backbone) {
   Vector3 n = loads.baseForce(chain);
   double softness = 0.0;  // C here, rad / (N m)
-  double softest = 0.0;   // of the whole robot to a moment about any axis, rad / (N m)
+  double softest = 0.0;   // largest compliance of the whole robot to a moment about any axis, rad / (N m)
   double before = 0.0;    // int of C^2 |n| up to here
   double sum = 0.0;
   const auto addRigid = [&](double load) {

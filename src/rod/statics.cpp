@@ -30,7 +30,7 @@ void StaticsSolver::forgetGuesses(const DeadLoads& loads, Backbone& backbone) {
   solutions_ = 0;
 }
 
-// The unloaded shape, and the base moment that the loads would exert on it.
+// Puts the backbone into the unloaded shape; sets the base moment that the loads exert on that shape.
 void StaticsSolver::placeFresh(const DeadLoads& loads, Backbone& backbone) {
   live_stiffness::placeUnloaded(chain_, backbone);
   forgetGuesses(loads, backbone);
@@ -38,7 +38,7 @@ void StaticsSolver::placeFresh(const DeadLoads& loads, Backbone& backbone) {
   base_moment_ = momentOfUnloaded(loads, backbone);
 }
 
-// That the loads exert on the base of the unloaded shape, which the backbone is in.
+// Base moment that the loads exert on the unloaded shape, which the backbone must have.
 Vector3 StaticsSolver::momentOfUnloaded(const DeadLoads& loads, const Backbone& backbone) const {
   Vector3 moment = angular(loads.tip) + backbone.X_BT.p.cross(linear(loads.tip) + chain_.tip_mass * loads.gravity);
   const GaussLegendre& table = gaussLegendre(backbone.passes->stages);
@@ -71,8 +71,8 @@ void StaticsSolver::prepareUnloaded(Backbone& backbone) {
   prepare(chain_, DeadLoads(), backbone);
 }
 
-// A guess from the last solutions. Where one pass over the columns is enough as it is, to extrapolate them does not
-// pay.
+// Extrapolates a guess from the last solutions. Sensitivities are not extrapolated where one iteration of them is enough
+// anyway.
 void StaticsSolver::goOn(const DeadLoads& loads, Backbone& backbone) {
   constexpr double kOnePass = 1e-4;
   const History known = accuracy_ < kOnePass && has_columns_ ? History::kColumns : History::kShape;
@@ -84,7 +84,7 @@ void StaticsSolver::goOn(const DeadLoads& loads, Backbone& backbone) {
   moment_before_ = last;
 }
 
-// By the quickest way that works, whichever branch that leads to.
+// By the fastest method that converges, on any branch.
 bool StaticsSolver::findEquilibrium(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
   Known known = !warm_ ? Known::kNothing : has_columns_ ? Known::kColumns : Known::kInverse;
   if (warm_) goOn(loads, backbone);
@@ -135,13 +135,12 @@ StaticsReport StaticsSolver::solve(const DeadLoads& loads, Backbone& backbone) {
       softness_ = std::max(softness_, rest.c.bending_torsion.diagonal().maxCoeff() * length);
       stiffest_ += rest.c.bending_torsion.diagonal().minCoeff() * length;
     }
-  // Other elements hold no guess, but the base moment stays what it was.
+  // New elements hold no guess, but the base moment is kept.
   if (discretisation_.choose(loads, backbone)) {
     has_columns_ = nodes_hold_guess_ = false;
     solutions_ = 0;
   }
-  // Newton's method takes any equilibrium, if it finds one. So where there may be several it is trusted near a stable
-  // one only.
+  // Newton's method may converge to any equilibrium. So where there may be several, it is used only near a stable one.
   if (warm_ || !mayBuckle(loads, backbone)) {
     report.converged = findEquilibrium(loads, backbone, report);
     report.stable = report.converged && isStable(loads, backbone, report);

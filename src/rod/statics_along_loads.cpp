@@ -1,4 +1,4 @@
-// How StaticsSolver finds the stable equilibrium that a robot comes to as its loads grow from zero.
+// StaticsSolver: load continuation, which finds the stable equilibrium of a robot whose loads grow from zero.
 
 #include <algorithm>
 #include <cmath>
@@ -9,23 +9,23 @@
 namespace live_stiffness {
 namespace {
 
-// A brisk search takes loads with a load number up to kBrisk, a step for each kStep of it.
+// A brisk search (equal steps, rough on the way) is used up to the normalised load kBrisk, with steps of kStep.
 constexpr double kBrisk = 2.5, kStep = 0.3;
-constexpr double kRough = 1e-2;            // accuracy that does on its way, of sweeps and columns
-constexpr double kFarFromBuckling = 4.0;   // amplification up to which it does: such errors grow by it
-// Of rods that the loads bend little sweeps converge surely. Under more load a base moment must be known to more digits
-// than they give, and Newton's method is not to be kept waiting (hard_cases_test).
-constexpr double kLittle = 1.2;            // load number
-constexpr double kAwayFromBuckling = 8.0;  // amplification
-constexpr double kRoughElements = 1e-3;    // accuracy that does for elements on the way, of either search
+constexpr double kRough = 1e-2;            // accuracy of shape and sensitivities on its way
+constexpr double kFarFromBuckling = 4.0;   // buckling factor up to which kRough is enough, since errors grow by it
+// Quasi-Newton iterations are reliable for rods that the loads bend little. Under more load the base moment is needed to more
+// digits than they give, so they get fewer iterations before Newton's method (hard_cases_test).
+constexpr double kLittle = 1.2;            // normalised load
+constexpr double kAwayFromBuckling = 8.0;  // buckling factor
+constexpr double kRoughElements = 1e-3;    // accuracy of the elements on the way, in both searches
 
 }  // namespace
 
-// Settles to one load of a branch search, with more elements where the robot bends more by now.
+// Finds the equilibrium for one load of a branch search, with more elements where the robot now bends more.
 class StaticsSolver::Finder : public EquilibriumFinder {
  public:
-  // Brisk: on the way it finds, roughly, what tells whether the tip's turning is stable, no more; and the first loads must
-  // allow one equilibrium only.
+  // kBrisk: on the way only what isTipTurningStable() needs is computed, roughly; the first load must allow only one
+  // equilibrium.
   enum class Pace { kBrisk, kCareful };
 
   Finder(StaticsSolver& solver, const DeadLoads& last, Backbone& backbone, StaticsReport& report, Pace pace)
@@ -63,7 +63,7 @@ class StaticsSolver::Finder : public EquilibriumFinder {
     solver_.base_moment_ = solver_.momentOfUnloaded(loads, backbone_);
     return solver_.quick(loads, Known::kNothing, kMaxSweeps, backbone_, report_);
   }
-  // From the shape and the columns of the loads before, or from the base moment that fewer elements have led to.
+  // From shape and sensitivities at the loads before, or from the base moment found with fewer elements.
   bool settleQuickly(const DeadLoads& loads, const Vector3& base_moment, bool refined) {
     const int few_sweeps = is_brisk_ || loadNumber(solver_.chain_, loads, backbone_) < kLittle ? 30 : 12;
     const bool has_columns = solver_.nodes_hold_guess_ && solver_.has_columns_;
@@ -100,7 +100,7 @@ class StaticsSolver::Finder : public EquilibriumFinder {
   bool is_first_;
 };
 
-// Sweeps to the finest goal from a solution; takes it back if they fail, or go off to an equilibrium that is not stable.
+// Refines a solution to the full accuracy; restores it if that fails or leads to an equilibrium that is not stable.
 void StaticsSolver::polish(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
   const Vector3 before = base_moment_;
   StaticsReport finer;

@@ -1,4 +1,4 @@
-// How StaticsSolver comes from a guess to an equilibrium of one load, and what its tangent is.
+// StaticsSolver: from a guess to an equilibrium for one load, and its tangent.
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -10,12 +10,12 @@ namespace live_stiffness {
 namespace {
 
 constexpr double kResidualGoal = 1e-12;     // rad, see StaticsReport::residual
-constexpr double kResidualAccepted = 1e-8;  // rad, when rounding stops it short of the goal; it is part of the estimate
-constexpr double kRoughColumns = 1e-2;      // relative error, enough for sweeps to converge
-constexpr double kFineColumns = 1e-12;      // for Newton steps where the residual is nearly singular, or huge
+constexpr double kResidualAccepted = 1e-8;  // rad, if rounding prevents the goal; part of the error estimate
+constexpr double kRoughColumns = 1e-2;      // relative error with which quasi-Newton iterations converge
+constexpr double kFineColumns = 1e-12;      // for Newton steps where the derivative is nearly singular, or huge
 constexpr double kMostAmplification = 1e6;
-constexpr double kSlowSweeps = 0.3;         // rate, beyond which columns found anew are worth what they cost
-constexpr double kQuickestRate = 0.01;      // at which sweeps may be counted on to converge at best
+constexpr double kSlowSweeps = 0.3;         // convergence rate above which new sensitivities are worth their cost
+constexpr double kQuickestRate = 0.01;      // smallest convergence rate that the stopping rule assumes
 
 }  // namespace
 
@@ -33,16 +33,16 @@ bool StaticsSolver::updateInverse(const DeadLoads& loads, double goal, Backbone&
   return has_columns_ && residual_inverse_.allFinite();
 }
 
-// Sweeps of one pass an element, each followed by a step of the base moment with the kept inverse: shape and moment
-// converge together, linearly, by a factor of about ten a sweep. Without trouble it takes one to ten. Where the shape has
-// moved too far from that of the columns they are found anew.
+// Quasi-Newton: in each iteration one fixed-point iteration of each element, then a step of the base moment with the inverse
+// kept. Shape and moment converge together, by a factor of about ten each time; usually one to ten iterations are enough.
+// If the shape has moved too far from that of the sensitivities, these are computed again.
 bool StaticsSolver::quick(const DeadLoads& loads, Known known, int max_sweeps, Backbone& backbone,
                           StaticsReport& report) {
   const int sweeps_before_columns = known == Known::kNothing ? 2 : 0;
   bool has_columns = known == Known::kColumns;
   constexpr double kRounding = 1e-13;
   const double goal = std::max(0.2 * accuracy_ / amplification_, 1e-15);
-  if (known == Known::kNothing) residual_inverse_.setIdentity();  // right but for the load's own effect
+  if (known == Known::kNothing) residual_inverse_.setIdentity();  // exact without loads
   double last = kInfinity;
   int growing = 0, last_columns = 0;
   ChainState chain = stateOf(chain_, loads, base_moment_, backbone);
@@ -53,7 +53,7 @@ bool StaticsSolver::quick(const DeadLoads& loads, Known known, int max_sweeps, B
     nodes_hold_guess_ = s.sound;
     const double error = std::max(s.change, bendingOf(Vector3(s.residual)));
     if (!s.sound || (growing += error > last) > 3) return false;
-    // Two sweeps show a rate. Within two digits of the goal a few more are cheaper than columns.
+    // Two iterations give a rate. Within two digits of the goal a few more are cheaper than new sensitivities.
     const bool is_slow = has_columns && i >= last_columns + 2 && error > kSlowSweeps * last && error > 100.0 * goal;
     if (is_slow || (!has_columns && i >= sweeps_before_columns)) {
       last_columns = i;
@@ -65,8 +65,8 @@ bool StaticsSolver::quick(const DeadLoads& loads, Known known, int max_sweeps, B
     base_moment_ += step;
     for (int k = 0; k < 3; ++k) chain.base_moment[k] = base_moment_[k];
     if (has_columns) backbone.passes->follow_all(chain, {step.x(), step.y(), step.z()});
-    // A single sweep shows no rate: then that of the last solve counts, but not one that was quick by luck.
-    if (i > 0) rate_ = std::max(kQuickestRate, std::min(kSlowestRate, error / last));  // 0 / 0: the slowest
+    // One iteration gives no rate; then that of the last solve is used, with a lower limit.
+    if (i > 0) rate_ = std::max(kQuickestRate, std::min(kSlowestRate, error / last));  // 0 / 0: kSlowestRate
     const double rate = i > 0 ? rate_ : std::max(rate_, 0.5 * kSlowestRate);
     const bool at_rounding = error <= kRounding && error > 0.3 * last;
     report.iteration = at_rounding ? error : rate * error;
@@ -95,13 +95,13 @@ bool StaticsSolver::newton(const DeadLoads& loads, Backbone& backbone, int max_i
     report.residual = marched ? bendingOf(residual) : kInfinity;
     const bool stalled = report.residual <= kResidualAccepted && report.residual >= 0.5 * accepted && inverse_is_fresh;
     if (report.residual <= kResidualGoal || stalled) {
-      report.iteration = 0.0;  // every shot has converged
+      report.iteration = 0.0;  // shoot() has converged to rounding
       base_moment_ = m0;
       return true;
     }
     if (report.residual < accepted) {
       if (have_inverse && std::isfinite(accepted)) {
-        // Broyden's update: the inverse maps the change of residual just seen to the step just made.
+        // Broyden's update: afterwards the inverse maps the last change of the residual to the last step.
         const Vector3 change = residual_inverse_ * (residual - accepted_residual);
         const Vector3 made = m0 - accepted_m0;
         const double scale = made.dot(change);
@@ -115,7 +115,7 @@ bool StaticsSolver::newton(const DeadLoads& loads, Backbone& backbone, int max_i
       accepted_residual = residual;
       damping = 1.0;
     } else if (std::isinf(accepted)) {
-      return false;  // not even the first guess can be integrated
+      return false;  // even the first guess cannot be integrated
     } else if (!inverse_is_fresh) {
       if (!march(loads, accepted_m0, backbone, residual)) return false;
       refresh();
@@ -133,18 +133,18 @@ bool StaticsSolver::newton(const DeadLoads& loads, Backbone& backbone, int max_i
   return false;
 }
 
-// Columns with a relative error x give a compliance with an error of about x. But the linearised rod is its own adjoint
-// as long as no tip moment acts, so the work of one wrench's moments on what another one's columns miss (their defect)
-// is that error to first order; without it x^2 is left. See docs/derivation.md.
+// Sensitivities with a relative error x give a compliance with an error of about x. But without a tip moment the linearised
+// rod is its own adjoint, so that error is known to first order: the adjoint-weighted residual. When it is subtracted, an
+// error of about x^2 remains. See docs/derivation.md, section 5.
 //
-// On a long taut chain the columns are far larger than the compliance made of them, as they are near a fold. Then so
-// much of x, and of rounding, is left, too.
+// On a long chain under tension, and near a fold, the sensitivities are far larger than the compliance, which is a difference
+// of them. Then x and rounding grow by that ratio.
 bool StaticsSolver::findTangent(const DeadLoads& loads, Backbone& backbone, StaticsReport& report, ColumnSet set) {
-  const double rounding = 2e-16 * static_cast<double>(backbone.elements.size());  // at most: of sums over all of them
-  constexpr double kEnough = 2.0;  // growth is known afterwards only; seldom does a little of it take another round
+  const double rounding = 2e-16 * static_cast<double>(backbone.elements.size());  // upper bound for sums over all elements
+  constexpr double kEnough = 2.0;  // the growth is known only afterwards; below this factor no second attempt is made
   const double goal = 0.2 * accuracy_, shape = report.iteration;
   const bool self_adjoint = angular(loads.tip).isZero(0.0);
-  double cancellation = 1.0, growth_squared = 1.0;  // of linear columns alone, and of all
+  double cancellation = 1.0, growth_squared = 1.0;  // of the linear sensitivities, and of all
   for (int attempt = 0; attempt < 2; ++attempt) {
     ElementColumns tip;
     const double error_goal = std::max(goal / amplification_, 1e-16);
@@ -160,7 +160,8 @@ bool StaticsSolver::findTangent(const DeadLoads& loads, Backbone& backbone, Stat
     const double p = columnsOf(tip.p).rightCols<3>().squaredNorm(), m = columnsOf(tip.m).leftCols<3>().squaredNorm(),
                  phi = columnsOf(tip.phi).leftCols<3>().squaredNorm(), inverse = residual_inverse_.squaredNorm();
     const double linear_part = std::max(1.0, p / tangent_.topLeftCorner<3, 3>().squaredNorm());
-    // Without loads both are 1. Towards a bifurcation the condition grows as the amplification, which counts anyway.
+    // Without loads both are 1. Towards a bifurcation the condition number grows as the buckling factor, which is included
+    // already.
     const double angular_part = phi * inverse / (3.0 * tangent_.bottomRightCorner<3, 3>().squaredNorm());
     const double condition = m * inverse / (9.0 * amplification_ * amplification_);
     cancellation = std::sqrt(linear_part);
