@@ -18,7 +18,7 @@ PoseDifference differenceOf(const Pose& a, const Pose& b) {
 }
 
 bool isSameEquilibrium(const Pose& a, const Pose& b, const StiffnessModel& model) {
-  constexpr double kMargin = 1e3;  // a soft robot turns an error of its loads into more of one of its pose
+  constexpr double kMargin = 1e3;  // on a soft robot a small error of the loads is a larger error of the pose
   const double tolerance = std::clamp(kMargin * model.options().accuracy, 1e-6, 0.1);
   const PoseDifference difference = differenceOf(a, b);
   return difference.position <= tolerance * model.scene().length() && difference.rotation <= tolerance;

@@ -5,7 +5,7 @@
 namespace live_stiffness {
 namespace {
 
-// [along; about]: a unit force along the line, or with its halves exchanged a unit rotation about it.
+// [along; about]: the wrench of a unit force along the line. With its halves exchanged: the twist of a unit rotation about it.
 Vector6 lineCoordinates(const Line& line) {
   const Vector3 direction = line.direction.normalized();
   Vector6 coordinates;

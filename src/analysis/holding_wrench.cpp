@@ -6,10 +6,10 @@
 namespace live_stiffness {
 namespace {
 
-// Sizes of motions: the larger of displacement over the robot's length and turn, rad.
+// Size of a motion: the larger of its displacement divided by the robot's length and its rotation, rad.
 constexpr double kTolerance = 1e-7;
 constexpr double kLargestLeg = 0.2, kLeastLeg = 5e-3;
-constexpr double kOnTheWay = 0.1;  // tolerance at the end of a leg, of the leg
+constexpr double kOnTheWay = 0.1;  // tolerance at the end of a step ("leg"), relative to its size
 constexpr int kMostSolves = 60, kMostIterations = 8;
 
 // Twist of T, base axes, from a pose to the goal.
@@ -22,14 +22,14 @@ Twist wayTo(const HoldGoal& goal, const Pose& X_BT) {
 
 double sizeOf(const Twist& way, double length) { return std::max(linear(way).norm() / length, angular(way).norm()); }
 
-// The goal, less a part of the way to it.
+// The goal of a step: short of the goal by `rest`.
 HoldGoal before(const HoldGoal& goal, const Twist& rest) {
   HoldGoal earlier{goal.position - linear(rest), goal.orientation};
   if (goal.orientation) earlier.orientation = expSo3(-angular(rest)) * *goal.orientation;
   return earlier;
 }
 
-// Wrench that makes this motion, to first order.
+// Wrench that causes this motion, to first order.
 Wrench wrenchFor(const Twist& motion, const Matrix6& C, bool pure_force) {
   Wrench wrench = Wrench::Zero();
   if (pure_force) linear(wrench) = C.topLeftCorner<3, 3>().partialPivLu().solve(linear(motion));
@@ -51,7 +51,7 @@ HoldingWrench findHoldingWrench(const StiffnessModel& model, PressuresRef pressu
   result.before = result.held = solve(Wrench::Zero());
   if (!result.before.status.ok()) return result;
 
-  // Newton's method to the end of a leg. True if it arrives, by steps that at least halve what is left.
+  // Newton's method to the end of a step. True if it converges, at least halving the remaining distance each time.
   const auto walkTo = [&](const HoldGoal& leg_goal, double tolerance) {
     Wrench trial_wrench = result.wrench;
     StiffnessSolution trial = result.held;
@@ -79,7 +79,7 @@ HoldingWrench findHoldingWrench(const StiffnessModel& model, PressuresRef pressu
       leg = std::min(2.0 * leg, kLargestLeg / size);
     } else {
       leg *= 0.5;
-      result.held = solve(result.wrench);  // the workspace went astray
+      result.held = solve(result.wrench);  // the workspace holds a failed trial
       if (!result.held.status.ok()) return result;
     }
   }

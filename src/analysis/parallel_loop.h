@@ -1,9 +1,9 @@
 #pragma once
 // parallelLoop(count, grain, body): on all threads of the arena, body(begin, end) for ranges that together are
-// [0, count), of at least half a `grain` each where there are as many. By TBB.
+// [0, count), each of at least half a `grain` if there are that many. Uses TBB.
 //
-// ThreadSanitizer does not see how TBB orders its threads, since distributions build libtbb without it; it is told
-// here, so that it still judges what the loop's body does.
+// Distributions build libtbb without ThreadSanitizer, so it does not see how TBB synchronises its threads. It is told
+// here, so that it can still check the body of the loop.
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -24,7 +24,7 @@ namespace live_stiffness {
 
 #ifdef LIVE_STIFFNESS_TSAN
 
-// Moments of all loops; not of one, whose address the bodies would have to read from where TBB keeps it.
+// Shared by all loops. One for each loop would not work: the bodies would have to read its address from TBB's memory.
 inline char loop_begin, loop_end;
 
 template <class Body>

@@ -6,7 +6,7 @@
 namespace live_stiffness {
 namespace {
 
-// SplitMix64 (Steele, Lea and Flood, OOPSLA 2014): the n-th number of a stream by its place alone.
+// SplitMix64 (Steele, Lea and Flood, OOPSLA 2014): the n-th number of a stream, computed from n alone.
 std::uint64_t mixed(std::uint64_t seed, std::uint64_t n) {
   std::uint64_t z = seed + (n + 1) * 0x9e3779b97f4a7c15u;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;

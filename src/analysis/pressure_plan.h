@@ -1,6 +1,6 @@
 #pragma once
-// Which pressures a stiffness map visits: a grid, or a random sample, over channels. Any row can be had without those
-// before it, so that threads may share them out as they like.
+// The pressures of a stiffness map: a grid, or a random sample, over channels. Each row can be computed without the rows
+// before it, so that threads can divide them freely.
 
 #include <cstdint>
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace live_stiffness {
 
-// Gauge pressures of one channel, Pa: `count` of them evenly from `from` to `to`, both included; one: `from`.
+// Gauge pressures of one channel, Pa: `count` values at equal distances from `from` to `to`, both included; one value: `from`.
 struct PressureRange {
   double from = 0.0;
   double to = 0.0;
-  long count = 1;  // ignored by a sample
+  long count = 1;  // not used by a random sample
 };
 
 class PressurePlan {

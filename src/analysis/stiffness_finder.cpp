@@ -15,7 +15,7 @@
 namespace live_stiffness {
 namespace {
 
-using Unknowns = Eigen::VectorXd;  // channel pressures over the largest allowed, 0 to 1
+using Unknowns = Eigen::VectorXd;  // channel pressures divided by the largest allowed one, 0 to 1
 constexpr double kStep = 1e-4;     // of central differences
 
 struct Derivatives {
@@ -82,7 +82,7 @@ class Problem {
   long solves_ = 0;
 };
 
-// Levenberg and Marquardt on the miss, with unknowns at a bound held there while the step would leave it.
+// Levenberg-Marquardt on the distance to the point. An unknown at its bound stays there if the step would cross it.
 std::optional<FoundPressures> approach(Problem& problem, Unknowns& x) {
   std::optional<Derivatives> d = problem.derivatives(x);
   double damping = 1e-3;
@@ -115,7 +115,7 @@ std::optional<FoundPressures> approach(Problem& problem, Unknowns& x) {
   return d->at;
 }
 
-// One run of SLSQP. Keeps the best configuration within the tolerance that it came by.
+// One run of SLSQP. Keeps the best configuration within the tolerance that it visits.
 class Improver {
  public:
   Improver(Problem& problem, double sign, double tolerance) : problem_(problem), sign_(sign), tolerance_(tolerance) {}
@@ -135,9 +135,9 @@ class Improver {
     nlopt_set_maxeval(optimiser_, 150);
     Unknowns x = start;
     double value = 0.0;
-    nlopt_optimize(optimiser_, x.data(), &value);  // whatever it says: what counts is kept in `best`
+    nlopt_optimize(optimiser_, x.data(), &value);  // its return value does not matter: the result is in `best`
     optimiser_ = nullptr;
-    // Its end may miss the point by a little: bring it there.
+    // Its last configuration may be slightly off the point: correct that.
     x = x.cwiseMax(0.0).cwiseMin(1.0);
     if (x.allFinite())
       if (const auto found = approach(problem_, x)) consider(*found);
@@ -157,7 +157,7 @@ class Improver {
       nlopt_force_stop(optimiser_);
       return false;
     }
-    // Exact touch-downs only: whatever lies elsewhere in the tolerance would gain stiffness by missing.
+    // Only configurations exactly at the point: others within the tolerance could be stiffer because they are off.
     if (last_->at.miss <= 1e-3 * tolerance_) consider(last_->at);
     return true;
   }

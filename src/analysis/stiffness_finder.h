@@ -1,6 +1,6 @@
 #pragma once
-// Which pressures bring the tip to a point and make it stiffest, or softest, along a direction there. A robot with more
-// channels than three reaches most points in many ways; this is the best of them.
+// The pressures that hold the tip at a point and make it stiffest, or most compliant, along a direction. A robot with more
+// than three channels reaches most points with many combinations of pressures.
 
 #include <cstdint>
 
@@ -11,8 +11,8 @@ namespace live_stiffness {
 
 struct FinderOptions {
   double max_pressure = 1e5;  // every channel is kept within 0 and this, Pa
-  double tolerance = 1e-4;    // largest miss of the point, m
-  int starts = 24;            // seeded random starts beside the middle of the range
+  double tolerance = 1e-4;    // largest distance from the point, m
+  int starts = 24;            // random starts (fixed seed), in addition to the middle of the range
   std::uint64_t seed = 1;
 };
 
@@ -32,11 +32,11 @@ struct FinderResult {
 };
 
 // Tip to `point` (base axes, m), stiffness along `direction` (base axes, not zero). Each start is first brought to the
-// point by damped least squares within the bounds; if none arrives, the point is out of reach as far as was seen. From
-// each that arrives sequential quadratic programming (SLSQP of NLopt: D. Kraft, "A software package for sequential
-// quadratic programming", DFVLR-FB 88-28, 1988) then improves the logarithm of the stiffness along the manifold of
-// pressures that hold the tip, by central differences. Both are local: the best of all starts is returned, which no
-// bound proves to be the best of all. Differences need a smooth model; the steps of Stepping::kFixedStep change in
+// point by damped least squares within the bounds; if none succeeds, the point is considered out of reach. From each that
+// succeeds, sequential quadratic programming (SLSQP of NLopt: D. Kraft, "A software package for sequential
+// quadratic programming", DFVLR-FB 88-28, 1988) then improves the logarithm of the stiffness, with the tip
+// held at the point, by central differences. Both methods are local: the best result of all starts is returned, which may not
+// be the global optimum. Differences need a smooth model; the steps of Stepping::kFixedStep change in
 // number with the pressures and make it jump, so use kContinuous or kLinear. Throws ConfigurationError on bad options,
 // a point or direction that is not finite, and channels that do not fit the scene.
 FinderResult findPressures(const StiffnessModel& model, const ChannelMap& channels, const Vector3& point,

@@ -32,7 +32,7 @@ SweepRow StiffnessSweep::solve(long row, StiffnessWorkspace& workspace, Pressure
   const Eigenstiffnesses eta = eigenstiffnessesOfCompliance(C);
   result.X_BT = solution.X_BT;
   result.eigenstiffnesses = eta.values;
-  switch (criterion_.kind) {  // those at hand already
+  switch (criterion_.kind) {  // the criteria that are already computed
     case CriterionKind::kLargestEigenstiffness: result.tau = eta.values[0]; break;
     case CriterionKind::kSmallestEigenstiffness: result.tau = eta.values[2]; break;
     default: result.tau = criterion_(C);
@@ -58,7 +58,7 @@ void StiffnessSweep::run(const Sink& sink, int threads, long block) const {
         Worker& worker = workers.local();
         for (long i = begin; i != end; ++i) rows[i] = solve(first + i, worker.workspace, worker.chambers);
       });
-      sink(first, rows);  // here, so that it keeps to the threads, too
+      sink(first, rows);  // inside the arena, so that the limit on threads holds for it, too
     });
   }
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Stiffness over the workspace (Fig. 10): every row of a plan solved on all cores.
+// Stiffness over the workspace (Fig. 10): solves every row of a plan, on all cores.
 
 #include <functional>
 
@@ -27,8 +27,8 @@ class StiffnessSweep {
   StiffnessSweep(const StiffnessModel& model, const PressurePlan& plan, const StiffnessCriterion& criterion,
                  ComplianceKind kind);
 
-  // One row. Depends on the row alone: every solve starts cold, so the result is that of the loads growing from zero,
-  // not of whichever row the thread did before.
+  // One row. Every solve starts cold, so the result depends on the row only, and not on the row that the thread solved
+  // before.
   SweepRow solve(long row, StiffnessWorkspace& workspace, Pressures& chambers) const;
 
   // Takes rows first to first + rows.size() - 1; called in order, by one thread at a time.

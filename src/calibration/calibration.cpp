@@ -31,8 +31,9 @@ SampleErrors errorsOf(const Registration& registration, const Pose& X_BT, const 
   return {predicted.p - measured.p, logSo3(predicted.R * measured.R.transpose()).norm()};
 }
 
-// Standard deviations per axis from the residuals of the used samples. The median length of a 3-vector of unit variance
-// is 1.538. Not below a tenth of the tracker's own noise, so that a simulation without noise stays well conditioned.
+// Standard deviations for each axis, from the residuals of the used samples. 1.538 is the median length of a 3-vector whose
+// components have unit variance. At least a tenth of the tracker's noise, so that a simulation without noise is well
+// conditioned.
 CalibrationProblem::Sigmas residualSigmas(CalibrationProblem& problem, size_t recordings,
                                           const CalibrationProblem::Solution& solution,
                                           const CalibrationOptions& options) {
@@ -113,7 +114,7 @@ CalibrationResult calibrate(const Scene& scene, const ChannelMap& channels,
   CalibrationProblem::Sigmas sigmas{options.position_sigma, options.rotation_sigma};
   progress("fitting", 0, 3);
   CalibrationProblem::Solution solution = problem.solve(problem.start(), sigmas, {}, kCoarse);
-  for (int round = 1; round <= 2; ++round) {  // with the sigmas seen, and tips turned by the registration found
+  for (int round = 1; round <= 2; ++round) {  // second round: with the sigmas and the tip orientations of the first
     progress("fitting", round, 3);
     sigmas = residualSigmas(problem, recordings.size(), solution, options);
     for (size_t n = 0; n < recordings.size(); ++n)

@@ -5,10 +5,10 @@
 //     sum over samples  rho(|e_position / sigma_p|^2 + |e_rotation / sigma_r|^2) / correlation
 //   + sum over rows of compliance tables  |C - C_measured|^2 / (sigma_C |C_measured|)^2 + (norms alike)
 //   + sum over parameters ((theta - prior mean) / prior sigma)^2                within the parameters' bounds,
-// rho Huber's loss. Neighbouring samples share their model error (creep, a plateau), so that only one in `correlation`
-// = correlation time / sample time counts: without that 1000 samples would drown any prior, and standard errors would
-// be far too small. sigma_p and sigma_r are estimated from the residuals of a first fit (medians), then the fit is
-// repeated.
+// rho is Huber's loss. Neighbouring samples share their model error (creep, a plateau), so `correlation` = correlation time /
+// sample time of them together count as one sample. Otherwise 1000 samples would outweigh every prior, and the standard
+// errors would be far too small. sigma_p and sigma_r are estimated from the residuals of a first fit (medians); then the
+// fit is repeated.
 
 #include <functional>
 #include <string>
@@ -25,8 +25,8 @@ namespace live_stiffness {
 
 enum class SampleChoice { kAll, kQuasiStatic };
 
-// What becomes of samples under contact (not isUnloaded): left out and predicted without the force; left out of the fit
-// but predicted with the sensor's wrench; or fitted with it.
+// Treatment of samples under contact (not isUnloaded): left out of the fit and predicted without the force; left out of the
+// fit but predicted with the sensor's wrench; or fitted with it.
 enum class LoadedSamples { kIgnore, kPredict, kFit };
 
 struct CalibrationRecording {
@@ -45,7 +45,7 @@ struct CalibrationOptions {
   double rotation_sigma = radians(1.0);  // rad; 0: orientations are not used
   double compliance_sigma = 0.05;     // of measured compliances, relative to the row's Frobenius norm
   double correlation_time = 1.0;      // s
-  double huber = 2.0;                 // residuals beyond so many sigmas count linearly only
+  double huber = 2.0;                 // residuals beyond this number of sigmas have linear weight
   bool use_priors = true;
   int blocks = 8;                     // of each recording, for the leave-one-block-out error; 0: none
   ForceSensorMount force_sensor;
@@ -58,7 +58,7 @@ struct RecordingFit {
   bool determined = false;                 // the data determine the registration: both errors below are small
   double base_rotation_error = 0.0;        // standard error of its worst axis, rad
   double sensor_offset_error = 0.0;        // standard error of its worst component, m
-  std::string verdict;                     // the same for people, with what to do
+  std::string verdict;                     // the same as text, with advice
   std::vector<double> position_error;      // |predicted - measured| of the sensor, every sample, m
   std::vector<double> rotation_error;      // rad, every sample
   std::vector<Vector3> position_residual;  // predicted - measured, base axes, m
@@ -79,11 +79,11 @@ struct ParameterFit {
   SceneParameter parameter;
   double value = 0.0;           // SI
   double standard_error = 0.0;  // SI; with the prior
-  double data_error = 0.0;      // SI; what the data alone would give; infinite if they say nothing
+  double data_error = 0.0;      // SI; without the prior; infinite if the data do not determine it
   bool at_bound = false;
 };
 
-// A direction of parameters along which the data say less than the priors do.
+// A combination of parameters about which the priors say more than the data.
 struct UndeterminedDirection {
   Eigen::VectorXd weights;   // unit vector in units of prior sigmas, one per parameter
   double information = 0.0;  // of the data, relative to the priors': below 1

@@ -48,7 +48,7 @@ CalibrationUnknowns CalibrationProblem::start() {
   CalibrationUnknowns unknowns;
   unknowns.x = Eigen::VectorXd::Zero(static_cast<long>(parameters_.size()));
   for (size_t k = 0; k < parameters_.size(); ++k) {
-    // Off the bounds, where a derivative may vanish (no creep has no time constant).
+    // Not on the bounds, where a derivative may vanish (without creep the time constant has no effect).
     const SceneParameter& p = parameters_[k];
     const double inset = std::min(0.2 * p.prior_sigma, 0.25 * (p.high - p.low));
     unknowns.x[static_cast<long>(k)] = (std::clamp(p.start, p.low + inset, p.high - inset) - p.start) / p.prior_sigma;
@@ -93,7 +93,7 @@ void CalibrationProblem::addPriors(ceres::Problem& problem, CalibrationUnknowns&
   const std::vector<double> zeros(3, 0.0), offsets(3, kOffsetSigma);
   for (RegistrationVector& r : unknowns.registrations) {
     problem.AddResidualBlock(priorCost(kRegistrationSize, {6, 7, 8}, zeros, offsets).release(), nullptr, r.data());
-    if (sigmas.rotation <= 0.0)  // nothing else holds the sensor's rotation: it stays where it is
+    if (sigmas.rotation <= 0.0)  // without orientations nothing determines the sensor's rotation: it is kept
       problem.AddResidualBlock(priorCost(kRegistrationSize, {9, 10, 11}, zeros, {1, 1, 1}).release(), nullptr,
                                r.data());
   }
@@ -122,8 +122,8 @@ void CalibrationProblem::search(ceres::Problem& problem, double tolerance, Solut
   solver.max_num_line_search_step_size_iterations = 4;
   solver.logging_type = ceres::SILENT;
   solver.num_threads = 1;  // predictions are shared by all samples of a recording
-  // Ceres creeps along a bound; so what has run into one, with the cost falling beyond, is held there and the search
-  // goes on.
+  // Ceres makes very small steps along a bound. So parameters that have reached a bound, beyond which the cost would fall,
+  // are held constant, and the search continues.
   const int most = tolerance > 1e-6 ? 12 : 40;
   std::vector<int> held = pressed();
   for (int attempt = 0; attempt < 4 && problem.NumParameterBlocks() > 0; ++attempt) {

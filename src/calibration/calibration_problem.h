@@ -27,7 +27,7 @@ class CalibrationProblem {
     bool converged = false;
     std::string message;
     int iterations = 0;
-    Eigen::MatrixXd jacobian;  // of all whitened, robustified residuals without priors; columns x, then registrations
+    Eigen::MatrixXd jacobian;  // of residuals without priors, divided by sigmas, with Huber's loss; columns x, then registrations
     Eigen::VectorXd residuals;
   };
   // tolerance: relative change of the cost at which the search ends.

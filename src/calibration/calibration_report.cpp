@@ -11,10 +11,10 @@
 namespace live_stiffness {
 namespace {
 
-constexpr double kTellingApart = 0.9;  // correlations above are named
+constexpr double kTellingApart = 0.9;  // larger correlations are reported
 
 std::string padded(std::string text, size_t width) {
-  text.resize(std::max(width, text.size() + 1), ' ');  // a space at least
+  text.resize(std::max(width, text.size() + 1), ' ');  // at least one space
   return text;
 }
 

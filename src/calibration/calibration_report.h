@@ -1,5 +1,5 @@
 #pragma once
-// What a calibration found, for people and for plotting.
+// The result of a calibration, as text and as tables for plotting.
 
 #include <string>
 
@@ -7,11 +7,11 @@
 
 namespace live_stiffness {
 
-// Several lines: estimates with standard errors, correlations, what the data cannot tell apart, errors of the fit and
-// with blocks left out, registrations with their verdicts.
+// Several lines: estimates with standard errors, correlations, combinations that the data do not determine, errors of the fit
+// and with blocks left out, registrations with their verdicts.
 std::string reportText(const CalibrationResult& result);
 
-// The short form that goes on top of a calibrated scene file: `how` (such as the command) first.
+// The short form for the head of a calibrated scene file; begins with `how` (such as the command).
 std::string sceneHeader(const CalibrationResult& result, const std::string& how);
 
 // CSV of every sample: recording, time_s, used, error_x_m .. error_z_m (base axes), error_m, rotation_error_rad,

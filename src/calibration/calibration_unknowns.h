@@ -7,7 +7,7 @@
 
 namespace live_stiffness {
 
-// Unknowns: x, the parameters in units of their prior sigmas from their start; and for each recording 12 numbers
+// Unknowns: x, the parameters minus their start, in units of their prior sigmas; and for each recording 12 numbers
 //   [w_AB, p_AB, p_TS, w_TS], R_AB = exp(w_AB) R_AB_start, R_TS = exp(w_TS) R_TS_start; m and rad.
 constexpr int kRegistrationSize = 12;
 constexpr double kOffsetSigma = 0.03;  // prior of the sensor's offset from T, per axis, m: it is on the tip
@@ -18,7 +18,7 @@ struct CalibrationUnknowns {
   std::vector<RegistrationVector> registrations;
 };
 
-// Parameters in SI at x, of as many entries as there are parameters, within their bounds.
+// Values of the parameters (SI) at x, which has one entry for each; limited to their bounds.
 Eigen::VectorXd valuesAt(const std::vector<SceneParameter>& parameters, const double* x);
 
 }  // namespace live_stiffness

@@ -7,8 +7,7 @@
 namespace live_stiffness {
 namespace {
 
-// Derivatives by central differences of solves to 1e-12: a table has a handful of rows, so all of it costs less than
-// one recording's millisecond.
+// Derivatives by central differences of solves to 1e-12. A table has few rows, so this costs less than a millisecond.
 class ComplianceCost : public ceres::CostFunction {
  public:
   ComplianceCost(RowCompliance compliance, const Matrix3& measured, double sigma, int parameters)

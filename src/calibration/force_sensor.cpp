@@ -5,8 +5,8 @@
 namespace live_stiffness {
 namespace {
 
-// How well it is known before any measurement: sensors are screwed on by eye, and a clock of its own is a sample or so
-// off. reach: either way from the start; zero: from -1 to 1.
+// Prior of each parameter: sensors are mounted by eye, and the sensor's own clock may differ by about a sample. reach: bound
+// on the change in both directions; zero: bounds -1 and 1.
 struct KnownNumber {
   const char* name;
   ParameterKind kind;
@@ -20,7 +20,7 @@ constexpr KnownNumber kKnownNumbers[] = {
     {"force_sensor_delay_s", ParameterKind::kForceSensorDelay, 0.05, 0.0, 1.0},
 };
 
-// Number of the mount that a parameter stands for, or nullptr.
+// The member of the mount that a parameter names, or nullptr.
 template <class T>
 T* numberOf(ForceSensorMountOf<T>& mount, ParameterKind kind) {
   switch (kind) {
@@ -84,7 +84,7 @@ Wrench ForceReadings::atTip(const ForceSensorMount& mount, double time, const Ma
   return mount.atTip(valueAt(readings_, placeIn(times_, time + mount.delay)), R_BT);
 }
 
-// Per second; at a reading, where a sensor without delay is read, the mean of both sides. None outside.
+// Time derivative. At the time of a reading (a sensor without delay) the mean of both sides. Zero outside the readings.
 Wrench ForceReadings::slopeAt(const TimePlace& place) const {
   const auto slopeFrom = [&](size_t i) {
     return Wrench((readings_[i + 1] - readings_[i]) / (times_[i + 1] - times_[i]));

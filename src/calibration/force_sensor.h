@@ -1,5 +1,5 @@
 #pragma once
-// A force sensor on the tip: how it sits there, and what its readings come to as a wrench on the robot.
+// A force sensor on the tip: how it is mounted, and the wrench on the robot that its readings mean.
 
 #include <optional>
 #include <string>
@@ -18,12 +18,12 @@ struct ForceSensorMountOf {
   T height = T(0.0);     // of its origin above T along z of T, m
   double sign = 1.0;     // 1: it reports what acts on the robot; -1: what the robot exerts
   Wrench gains = Wrench::Ones();  // of its channels [f; m], own axes; 0: that channel is left out
-  // Shares of its fz that show in fx and fy, by crosstalk or because its axis leans; they are taken off, -.
+  // Shares of fz that appear in fx and fy, by crosstalk or because its axis is tilted; they are subtracted, -.
   Vector2Of<T> crosstalk = Vector2Of<T>::Constant(T(0.0));
-  T delay = T(0.0);      // by which its readings are late against the pressures, s
+  T delay = T(0.0);      // s by which its readings are later than the pressures
 
-  // Dead wrench at T in base axes of a reading [f; m] (its own axes and origin; N, N m), the tip oriented as R_BT. Its
-  // delay is the reader's affair.
+  // Dead wrench at T in base axes of a reading [f; m] (its own axes and origin; N, N m), the tip oriented as R_BT. The
+  // delay is not applied here.
   Eigen::Matrix<T, 6, 1> atTip(const Eigen::Matrix<T, 6, 1>& reading, const Matrix3& R_BT) const {
     using std::cos, std::sin;
     using Vector3T = Vector3Of<T>;
@@ -43,7 +43,7 @@ struct ForceSensorMountOf {
     return wrench;
   }
 
-  // 3x3: projects a force (base axes) on what the channels that count can see of it.
+  // 3x3: projects a force (base axes) on the part that the channels in use measure.
   Matrix3 seen(const Matrix3& R_BT) const {
     const Matrix3 R_BF = R_BT * expSo3(Vector3(0.0, 0.0, azimuth));
     return R_BF * Vector3(linear(gains)).asDiagonal() * R_BF.transpose();
@@ -51,24 +51,24 @@ struct ForceSensorMountOf {
 };
 using ForceSensorMount = ForceSensorMountOf<double>;
 
-// What a calibration may fit of it: force_sensor_azimuth_deg, force_sensor_height_m, force_sensor_crosstalk_x and _y,
-// force_sensor_delay_s; its start is the mount's value. nullopt: another name.
+// The parameter with this name, if a calibration can fit it: force_sensor_azimuth_deg, _height_m, _crosstalk_x, _crosstalk_y,
+// _delay_s. Its start is the value of the mount. nullopt: another name.
 std::optional<SceneParameter> forceSensorParameter(const std::string& name, const ForceSensorMount& mount);
 const std::vector<std::string>& forceSensorParameterNames();
 
-// The mount with those of the parameters that are its own at these values (SI).
+// The mount with these values (SI) of the parameters that belong to it; other parameters are ignored.
 ForceSensorMount withParameters(const ForceSensorMount& mount, const std::vector<SceneParameter>& parameters,
                                 const Eigen::VectorXd& values);
 
-// A sensor's readings along a recording, which must have one at least where they are asked for.
+// A sensor's readings along a recording; at least one is needed before wrench() is called.
 class ForceReadings {
  public:
   explicit ForceReadings(const Recording& recording);
 
-  // What the sensor felt at `time` (s): its reading of `delay` later as a dead wrench at T in base axes, the tip oriented
-  // as R_BT. Linear between readings, the nearest one outside.
+  // The wrench at `time` (s), from the reading at time + delay, as a dead wrench at T in base axes, with the tip oriented as
+  // R_BT. Linear between readings; outside of them the nearest one.
   Wrench atTip(const ForceSensorMount& mount, double time, const Matrix3& R_BT) const;
-  // Its derivatives by the parameters (SI), 6 x parameters; zero by those of the scene.
+  // Its derivatives by the parameters (SI), 6 x parameters; zero for parameters of the scene.
   Eigen::Matrix<double, 6, Eigen::Dynamic> derivative(const ForceSensorMount& mount,
                                                       const std::vector<SceneParameter>& parameters, double time,
                                                       const Matrix3& R_BT) const;

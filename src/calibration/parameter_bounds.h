@@ -1,5 +1,5 @@
 #pragma once
-// Bounds of a calibration's parameters in Ceres, which creeps along them; so what has run into one is held there.
+// Bounds of a calibration's parameters in Ceres. Ceres makes very small steps along a bound, so parameters at one are held.
 
 #include <ceres/problem.h>
 
@@ -15,7 +15,7 @@ void addBoundedBlock(ceres::Problem& problem, Eigen::VectorXd& x, const std::vec
 // Holds these entries of x where they are, and frees the others.
 void hold(ceres::Problem& problem, Eigen::VectorXd& x, const std::vector<int>& entries);
 
-// Frees x, and returns its entries at a bound of theirs, beyond which the cost would fall.
+// Frees x; returns its entries that are at a bound beyond which the cost would fall.
 std::vector<int> pressedAgainstBounds(ceres::Problem& problem, Eigen::VectorXd& x,
                                       const std::vector<SceneParameter>& parameters);
 

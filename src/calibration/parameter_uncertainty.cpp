@@ -10,7 +10,7 @@ namespace live_stiffness {
 namespace {
 
 constexpr double kMostTurnError = 5.0;     // deg, and
-constexpr double kMostOffsetError = 5e-3;  // m: a registration known worse than this counts as not determined
+constexpr double kMostOffsetError = 5e-3;  // m: with larger errors a registration counts as not determined
 
 // Inverse of a symmetric matrix that may be singular, by eigenvalues; directions without information get a huge
 // variance.
@@ -34,7 +34,7 @@ void describeParameters(const CalibrationProblem& problem, const std::vector<Sce
       const long at = count + static_cast<long>(n) * kRegistrationSize + k;
       information(at, at) += 1.0 / (kOffsetSigma * kOffsetSigma);
     }
-  // Of the parameters alone, registrations eliminated: what the data say, in units of the priors' information.
+  // Information of the data about the parameters, registrations eliminated, in units of the priors' information.
   Eigen::MatrixXd data = information.topLeftCorner(count, count);
   if (rest > 0 && count > 0)
     data -= information.topRightCorner(count, rest) * inverseInformation(information.bottomRightCorner(rest, rest)) *
@@ -57,7 +57,7 @@ void describeParameters(const CalibrationProblem& problem, const std::vector<Sce
     for (long k = 0; k < count && eigen.eigenvalues()[k] < 1.0; ++k)
       result.undetermined.push_back({eigen.eigenvectors().col(k), std::max(0.0, eigen.eigenvalues()[k])});
   }
-  // Registrations, with the parameters as uncertain as they are.
+  // Registrations, including the uncertainty of the parameters.
   if (rest == 0) return;
   if (count > 0) information.topLeftCorner(count, count) += prior;
   const Eigen::MatrixXd all = inverseInformation(information);

@@ -1,5 +1,5 @@
 #pragma once
-// How well a calibration knows its parameters and registrations, from the Jacobian at the solution.
+// Uncertainty of a calibration's parameters and registrations, from the Jacobian at the solution.
 
 #include "calibration/calibration_problem.h"
 

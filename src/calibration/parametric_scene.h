@@ -1,5 +1,5 @@
 #pragma once
-// A scene whose numbers may carry derivatives, and how the parameters of a calibration act on it.
+// A scene whose numbers may carry derivatives, and how the parameters of a calibration change it.
 
 #include "calibration/scene_parameter.h"
 #include "live_stiffness/rod/scene.h"
@@ -65,7 +65,7 @@ ParametricScene<T> castScene(const Scene& scene) {
   return result;
 }
 
-// Number of a body that a parameter stands for, or nullptr.
+// The member of a body that a parameter names, or nullptr.
 template <class T>
 T* numberOf(ParametricBody<T>& body, ParameterKind kind) {
   CrossSectionOf<T>& section = body.section;
@@ -87,8 +87,8 @@ T* numberOf(ParametricBody<T>& body, ParameterKind kind) {
   }
 }
 
-// Gives the parameter this value. Every segment takes it; Young's modulus takes the shear modulus with it, so that
-// Poisson's ratio stays. A channel's azimuth turns its chambers as a group about the backbone.
+// Sets the parameter, in all segments. With Young's modulus the shear modulus changes, so that Poisson's ratio stays the
+// same. A channel's azimuth rotates all its chambers together about the backbone.
 template <class T>
 void setParameter(ParametricScene<T>& scene, const SceneParameter& parameter, const T& value) {
   if (parameter.kind == ParameterKind::kTipMass) {

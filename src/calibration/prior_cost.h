@@ -1,5 +1,5 @@
 #pragma once
-// What is known of a calibration's unknowns beforehand.
+// Priors of a calibration's unknowns.
 
 #include <memory>
 #include <vector>

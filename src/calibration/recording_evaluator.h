@@ -1,5 +1,5 @@
 #pragma once
-// The model along a recording, as a calibration asks for it.
+// Predictions of the model for all samples of a recording.
 
 #include <string>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace live_stiffness {
 
-// Predictions of one recording, kept for the x of the last call, since Ceres asks sample by sample.
+// Predictions for one recording. Those of the last x are kept, since Ceres evaluates one sample after the other.
 class RecordingEvaluator {
  public:
   RecordingEvaluator(const Scene& scene, const ChannelMap& channels, const std::vector<SceneParameter>& parameters,
@@ -20,11 +20,11 @@ class RecordingEvaluator {
   // The same for every sample of the recording, used or not.
   bool predictAll(const double* x, std::vector<TipPrediction>& predictions);
 
-  // From now on the wrenches of loaded samples act on a tip that is oriented as the tracker saw it; before, none act.
+  // After this call the wrenches of loaded samples act on the tip, oriented as the tracker saw it; before, no wrench acts.
   void orientTips(const Registration& registration);
 
   Registration registration(const RegistrationVector& r) const;
-  // Registration that fits best at x, by fitRegistration(), as the new start from which registrations are counted.
+  // Sets the registration that fits best at x, by fitRegistration(), as the new start of the registration's unknowns.
   void restart(const double* x);
 
   const Registration& startRegistration() const { return start_; }

@@ -79,7 +79,7 @@ void marchSegment(const SegmentColumns& segment, const Vector3& gravity, const V
   d_mass_beyond -= segment.d_mass;
 }
 
-// Half of the link carries its mass beyond, the other half does not. Its length is no parameter.
+// The link's mass acts at its middle, so it loads the near half only. The length of a link is no parameter.
 void passLink(double length, const Vector3& gravity, const Vector3& tip_force, double mass, const SeedRow& d_mass,
               double& mass_beyond, SeedRow& d_mass_beyond, Section& at) {
   const Vector3 half = 0.5 * length * at.R.col(2);

@@ -9,9 +9,9 @@
 namespace live_stiffness {
 namespace {
 
-// How well a number is known before any measurement, as the larger of a share of the scene's value and a least one.
-// Made lengths are known to some 5 %: what acts as the elastic length, or where the pressure acts in a chamber, is
-// not what a ruler measures. Moduli of silicones differ by half between batches and test methods.
+// Prior sigma of a parameter before any measurement: the larger of a share of the scene's value and a minimum. Lengths have
+// 5 %: the elastic length, and the place where the pressure acts in a chamber, are not what a ruler measures. The moduli of
+// silicones differ by half between batches and test methods.
 struct Known {
   const char* name;
   ParameterKind kind;
@@ -120,8 +120,8 @@ SceneParameter sceneParameter(const std::string& name, const Scene& scene, const
     parameter.low = known.low;
     parameter.high = known.high;
     parameter.unit = known.unit;
-    // What a chamber or pitch radius may be is bounded by the tube around it; a micrometre short of it, so that a
-    // value at its bound still reads back as legal.
+    // The tube around them limits chamber radius and pitch radius. The bound is a micrometre smaller, so that a value at the
+    // bound is still legal when it is read back.
     constexpr double kMargin = 1e-6;
     const CrossSection& section = firstSegment(scene).section;
     const double inner = section.lumen_radius, outer = section.outer_radius;

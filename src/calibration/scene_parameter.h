@@ -1,6 +1,5 @@
 #pragma once
-// Numbers that a calibration may change, of a scene or of a force sensor: names, what is known of them beforehand, and
-// their bounds.
+// Parameters that a calibration can change, of a scene or of a force sensor: names, priors and bounds.
 
 #include <string>
 #include <vector>
@@ -24,14 +23,14 @@ struct SceneParameter {
   std::vector<int> chambers;  // of kChannelAzimuth: which of a segment's chambers
   // All in SI (azimuths in rad, see `unit`):
   double start = 0.0;        // the scene's value; where the search begins
-  double prior_mean = 0.0;   // what is known beforehand: a normal distribution, cut off at the bounds
+  double prior_mean = 0.0;   // of the prior, a normal distribution, truncated at the bounds
   double prior_sigma = 1.0;
   double low = 0.0, high = 0.0;
   double unit = 1.0;         // SI value of one unit of `name`
 };
 
-// Parameter of a name for a scene, with its default prior and bounds; `segment` values are those of the first
-// segment, and a calibrated value is given to all of them. Throws ConfigurationError with the legal names on an
+// Parameter of a scene by its name, with default prior and bounds. Its start is the value of the first segment; a calibrated
+// value is set in all segments. Throws ConfigurationError with the legal names on an
 // unknown one, or one that this scene does not have (a Gent limit without that law, a link's mass without a link, no
 // such channel).
 SceneParameter sceneParameter(const std::string& name, const Scene& scene, const ChannelMap& channels);
@@ -39,7 +38,7 @@ SceneParameter sceneParameter(const std::string& name, const Scene& scene, const
 // All names that this scene has.
 std::vector<std::string> sceneParameterNames(const Scene& scene, const ChannelMap& channels);
 
-// The scene with the parameters that are its own at these values (SI).
+// The scene with these values (SI) of the parameters that belong to it; other parameters are ignored.
 Scene withParameters(const Scene& scene, const std::vector<SceneParameter>& parameters, const Eigen::VectorXd& values);
 
 }  // namespace live_stiffness

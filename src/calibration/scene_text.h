@@ -1,5 +1,5 @@
 #pragma once
-// Scenes back to YAML.
+// Writes scenes as YAML.
 
 #include <string>
 

@@ -8,19 +8,19 @@
 
 namespace live_stiffness {
 
-// What acts on the robot at one instant.
+// Pressures and wrench on the robot at one time.
 struct ActuationSample {
-  double time = 0.0;                    // s, not decreasing: creep looks back
+  double time = 0.0;                    // s, not decreasing, because of creep
   Pressures channels;                   // gauge, Pa, one per channel
   Wrench tip_wrench = Wrench::Zero();   // dead wrench at T, base axes
-  bool wanted = true;                   // false: it only feeds the creep, and is not solved
+  bool wanted = true;                   // false: only for the creep; not solved
 };
 
 struct TipPrediction {
   Pose X_BT;
   // Twist of T (base axes) by parameter: d p / d value and the small rotation, SI; 6 x parameters.
   Eigen::Matrix<double, 6, Eigen::Dynamic> derivative;
-  // Twist [v; w] of T by a dead wrench [f; m] there, base axes, SI, 6x6; zero where the model leaves loads out.
+  // Twist [v; w] of T by a dead wrench [f; m] there, base axes, SI, 6x6; zero if the model ignores loads.
   Matrix6 compliance;
 };
 
@@ -28,12 +28,12 @@ class TipPredictor {
  public:
   TipPredictor(Scene scene, ModelOptions options, ChannelMap channels, std::vector<SceneParameter> parameters);
 
-  // Predictions at these parameter values (SI), one per sample; those not wanted are left alone. False as soon as one
-  // sample has no solution, with the reason in failure().
+  // Predictions at these parameter values (SI), one per sample; those not wanted are not changed. False if a sample
+  // has no solution; failure() has the reason.
   //
-  // The equilibrium is the solver's. Derivatives: material, load steps, creep and masses by automatic
-  // differentiation, the linearised rod along the equilibrium, and the base moment m0 eliminated by the implicit
-  // function theorem, dX = X_theta - X_m0 r_m0^-1 r_theta, r the residual moment. No step size, and no further solve.
+  // The equilibrium comes from the solver. Derivatives: material, load steps, creep and masses by automatic differentiation,
+  // then the rod linearised along the equilibrium, and the base moment m0 eliminated by the implicit function theorem,
+  // dX = X_theta - X_m0 r_m0^-1 r_theta, r the residual moment. No step size is needed, and no further solve.
   bool predict(const Eigen::VectorXd& values, const std::vector<ActuationSample>& samples, bool derivatives,
                std::vector<TipPrediction>& predictions);
 
