@@ -11,7 +11,7 @@ ErrorSummary summarizeErrors(std::vector<double> errors) {
   ErrorSummary summary;
   summary.count = static_cast<int>(errors.size());
   if (errors.empty()) return summary;
-  // A NaN breaks the order that sorting relies on, and must not vanish into a good looking percentile.
+  // Sorting needs an order, which NaN does not have; and a NaN must show in the result.
   if (std::any_of(errors.begin(), errors.end(), [](double error) { return std::isnan(error); })) {
     summary.mean = summary.rms = summary.p95 = summary.max = std::numeric_limits<double>::quiet_NaN();
     return summary;
@@ -26,7 +26,7 @@ ErrorSummary summarizeErrors(std::vector<double> errors) {
   const double count = static_cast<double>(errors.size());
   summary.mean = sum / count;
   summary.rms = std::sqrt(sum_of_squares / count);
-  // Less a hair, because 0.95 * 20 is a little more than 19 in binary.
+  // Minus a little, because 0.95 * 20 is slightly more than 19 in binary.
   summary.p95 = errors[static_cast<size_t>(std::ceil(0.95 * count - 1e-9)) - 1];
   summary.max = errors.back();
   return summary;

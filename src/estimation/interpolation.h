@@ -6,7 +6,7 @@
 
 namespace live_stiffness {
 
-// Where `time` lies in ascending times: between samples `before` and `before + 1`, `share` of the way; at the nearest
+// Position of `time` in ascending times: between samples `before` and `before + 1`, `share` of the way; at the nearest
 // end when outside. times must not be empty; a series of one sample has share 0.
 struct TimePlace {
   size_t before = 0;
@@ -19,7 +19,7 @@ inline TimePlace placeIn(const std::vector<double>& times, double time) {
   return {after - 1, (time - times[after - 1]) / (times[after] - times[after - 1])};
 }
 
-// Value at that place. values: as many as times.
+// Value at that position. values: as many as times.
 template <class Value>
 Value valueAt(const std::vector<Value>& values, const TimePlace& place) {
   if (place.share == 0.0) return values[place.before];

@@ -1,5 +1,5 @@
 #pragma once
-// The recent past of pressures and predicted tip, for a tracker that is late: it sees how the robot stood then.
+// The recent past of pressures and predicted tip, since a late tracker measures where the tip was some time ago.
 
 #include <deque>
 
@@ -18,8 +18,8 @@ class MotionHistory {
   static constexpr double kCapacity = 2.0;  // s of the past
   static constexpr size_t kMost = 4000;     // moments kept: the newest ones
 
-  // time: s. A moment that goes back in time by more than a second (a clock set anew) begins the history anew; one that
-  // goes back by less is left out.
+  // time: s. If it is more than a second earlier than the last one (a clock was set back), the history starts again; if it is
+  // earlier by less, the moment is left out.
   void add(const Moment& moment);
   void clear() { moments_.clear(); }
   bool empty() const { return moments_.empty(); }

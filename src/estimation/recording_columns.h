@@ -1,5 +1,5 @@
 #pragma once
-// Header and fields of a recording's CSV: which column holds what, and what is wrong with the header.
+// Header and fields of a recording's CSV: the meaning of each column, and the faults of the header.
 
 #include <array>
 #include <optional>
@@ -24,10 +24,10 @@ struct RecordingColumns {
 // Reads the header line; adds a fault for every column that is missing or repeated, a warning for those not known.
 RecordingColumns findColumns(const std::string& header, std::vector<std::string>& warnings, FaultList& faults);
 
-// Fields of one line without the blanks around them; a carriage return is a blank. An empty line has one empty field.
+// Fields of one line, without blanks before and after; a carriage return counts as a blank. An empty line has one empty field.
 std::vector<std::string> splitCsvLine(const std::string& line);
 
-// A finite number that fills the whole field, with a decimal point whatever the locale.
+// A finite number that fills the whole field, with a decimal point in every locale.
 std::optional<double> finiteNumber(const std::string& field);
 
 }  // namespace live_stiffness

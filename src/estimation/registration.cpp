@@ -10,7 +10,7 @@ namespace live_stiffness {
 namespace {
 
 Pose readPose(YamlMap& document, const std::string& key, FaultList& faults) {
-  // Below, the direction of a rounded quaternion means nothing; above, squares may overflow.
+  // Smaller quaternions have no direction after rounding; squares of larger ones may overflow.
   const Range norm{1e-3, 1e3};
   Pose X;
   const YAML::Node node = document.child(key);
@@ -23,7 +23,7 @@ Pose readPose(YamlMap& document, const std::string& key, FaultList& faults) {
   const std::vector<double> wxyz = map.numbers("quaternion_wxyz", 4);
   if (wxyz.size() == 4) {
     const Eigen::Quaterniond q(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
-    if (q.coeffs().allFinite()) {  // otherwise the fault is there already
+    if (q.coeffs().allFinite()) {  // otherwise the fault was already reported
       if (norm.contains(q.norm())) X.R = q.normalized().toRotationMatrix();
       else map.fault("quaternion_wxyz", "norm is " + numberText(q.norm()) + ": must be 0.001 to 1000, should be 1");
     }

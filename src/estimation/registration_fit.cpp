@@ -18,8 +18,8 @@ Matrix3 nearestRotation(const Matrix3& M) {
   return svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
 }
 
-// Kabsch's method with a faint preference for no rotation, which decides what the vectors leave open (all parallel,
-// or all zero) and is far below what the fit corrects afterwards.
+// Kabsch's method with a small preference for no rotation. It decides where the vectors do not (all parallel, or all zero);
+// its effect is far below what the fit corrects afterwards.
 Matrix3 startRotation(const Matrix3& sum_of_outer_products) {
   const double scale = sum_of_outer_products.norm();
   return nearestRotation(sum_of_outer_products + (1e-6 * scale + 1e-300) * Matrix3::Identity());
@@ -137,7 +137,7 @@ void markUndetermined(const CentredProblem& problem, const Fit& estimate, Regist
   Vector6 gradient;
   problem.linearize(estimate.R_AB, estimate.offset, normal, gradient);
   const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(normal);
-  constexpr double kTakesPart = 0.1;  // share of an undetermined direction that counts
+  constexpr double kTakesPart = 0.1;  // smallest component of an undetermined direction that is reported
   fit.weakest_sensitivity = std::sqrt(std::max(eigen.eigenvalues()[0], 0.0));
   fit.base_rotation_determined = fit.sensor_offset_determined = true;
   for (int k = 0; k < 6; ++k) {

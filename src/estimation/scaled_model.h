@@ -1,5 +1,5 @@
 #pragma once
-// A stiffness model with a factor on all its moduli, and its derivative by that factor.
+// A stiffness model with a factor on all its moduli, and the derivative by that factor.
 
 #include <memory>
 
@@ -9,12 +9,12 @@ namespace live_stiffness {
 
 class ScaledModel {
  public:
-  // Models are rebuilt when the logarithm of the scale moved by more than this; in between the solution
-  // is that of the last rebuild (error of at most 1e-3 of the deflection).
+  // Models are rebuilt when the logarithm of the scale has changed by more than this; until then the solution is that of the
+  // last rebuild (error: at most 1e-3 of the deflection).
   static constexpr double kRebuildAfter = 1e-3;
   static constexpr double kDifference = 1e-2;  // of the logarithm, for the derivative: truncation 1 % of it
 
-  // Throws ConfigurationError on bad options or scene. with_derivative: a second model stands by for it.
+  // Throws ConfigurationError on bad options or scene. with_derivative: keeps a second model for it.
   ScaledModel(Scene scene, const ModelOptions& options, bool with_derivative);
 
   // Factor exp(log_scale) on all moduli; allocates when it rebuilds.

@@ -33,7 +33,7 @@ struct Series {
   }
   // Sum of squares of the predicted speed, m^2/s^2, and the number of used samples.
   double squaredSpeeds(double delay, int& count) const {
-    constexpr double kStep = 0.01;  // s, either way: below any sample time
+    constexpr double kStep = 0.01;  // s, in both directions: less than the time between samples
     double sum = 0.0;
     count = 0;
     for (size_t i = 0; i < times.size(); ++i) {
@@ -46,7 +46,7 @@ struct Series {
   }
 };
 
-// Lowest mean square: by steps finer than a sample time over the range, then by golden section around the best.
+// Minimum of the mean square: by steps finer than the time between samples, then by golden section around the best.
 double bestDelay(const Series& series) {
   constexpr double kStep = 0.01, kGolden = 0.6180339887498949, kEnough = 1e-5;  // s
   double best = 0.0, least = series.meanSquare(0.0);
@@ -113,7 +113,7 @@ TrackerDelay fitTrackerDelay(const std::vector<double>& times, const std::vector
   const double squared_speeds = series.squaredSpeeds(delay, count);
   const double sample_time = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
   const double sharing = std::max(1.0, correlation / sample_time);  // samples that share their error
-  // Tracker noise at least, so that a simulation without any does not claim to know more than a sample's rounding.
+  // At least this noise, so that the error of a simulation without noise is not smaller than the rounding of a sample.
   constexpr double kLeast = 3e-5;  // m
   const double variance = std::max(mean_square / 3.0, kLeast * kLeast);  // per axis
   result.standard_error = squared_speeds > 0.0 ? std::sqrt(variance * sharing / squared_speeds) : kInfinity;

@@ -1,5 +1,5 @@
 #pragma once
-// How late a tracker is against the pressures: its own filter, its driver's buffer, or clocks that were set apart.
+// How much later the tracker's poses are than the pressures, because of its filter, its driver's buffer or different clocks.
 
 #include <string>
 #include <vector>
@@ -8,26 +8,26 @@
 
 namespace live_stiffness {
 
-// The recording on the tracker's clock: each sample's pressures and wrench are those of `delay` s before it,
-// interpolated; before the first sample, or after the last, theirs. delay may be negative.
+// The recording on the tracker's clock: each sample gets the pressures and the wrench of `delay` s before it, interpolated;
+// before the first sample and after the last one theirs. delay may be negative.
 Recording withTrackerDelay(const Recording& recording, double delay);
 
 struct TrackerDelay {
-  static constexpr double kLargest = 0.5;            // s, either way: what is searched
-  static constexpr double kLargestError = 0.02;      // s: a delay known worse than this is not determined
+  static constexpr double kLargest = 0.5;            // s, in both directions: range of the search
+  static constexpr double kLargestError = 0.02;      // s: a delay with a larger error is not determined
   double delay = 0.0;                                // s; positive: the tracker is late. 0 unless determined
   double standard_error = 0.0;                       // s; infinite: nothing moved
   bool determined = false;
   double rms_before = 0.0, rms = 0.0;                // distance from the prediction without and with the delay, m
 
-  std::string text() const;  // one line for people
+  std::string text() const;  // as one line
 };
 
 // The delay at which predicted positions of the sensor (m, tracker frame; for the pressures of their sample) are
-// nearest to the measured ones, in the mean square over the samples of `used`:
+// nearest to the measured ones, as the mean square over the samples of `used`:
 //   sum_i |p_predicted(t_i - delay) - p_measured(t_i)|^2,
-// predictions interpolated in time. What is left over is taken to hold for `correlation` s (model error does) in the
-// standard error. Throws ConfigurationError unless all have the same size, at least 3, and are finite.
+// with predictions interpolated in time. For the standard error, the remaining errors are assumed to last for `correlation` s,
+// as model error does. Throws ConfigurationError unless all have the same size, at least 3, and are finite.
 TrackerDelay fitTrackerDelay(const std::vector<double>& times, const std::vector<Vector3>& predicted,
                              const std::vector<Vector3>& measured, const std::vector<bool>& used,
                              double correlation = 1.0);

@@ -9,7 +9,7 @@
 namespace live_stiffness {
 namespace {
 
-// Rods under end loads need so many elements of three stages that those of five are quicker even for less.
+// Rods under end loads need so many elements of three stages that elements of five stages are faster at any accuracy.
 constexpr double kCoarsest = 1e-7;
 
 Scene sceneOf(const ParallelRod& rod) {
@@ -30,8 +30,8 @@ Matrix6 turned(const Matrix6& M, const Matrix3& R) {
   return result;
 }
 
-// Moves the guess g along with changes of base moment and end force, by the columns held: see ElementPasses::follow.
-// On copies, which the compiler can put into vectors.
+// Moves the guess g along with changes of base moment and end force, by the stored sensitivities: see ElementPasses::follow.
+// Works on copies, which the compiler can vectorise.
 void follow(ElementState& e, const double (&change)[6]) {
   constexpr int kLanes = kMaxStages + 1;
   StageRow turn[3], g[3];
@@ -57,7 +57,7 @@ void follow(ElementState& e, const double (&change)[6]) {
   std::copy_n(&g[0][0], 3 * kLanes, &e.g[0][0]);
 }
 
-// Number of negative eigenvalues of a matrix whose three are real: Descartes' rule is exact then.
+// Number of negative eigenvalues of a 3x3 matrix with real eigenvalues, for which Descartes' rule is exact.
 int negativeEigenvalues(const Matrix3& G) {
   const double minors = G(0, 0) * G(1, 1) - G(0, 1) * G(1, 0) + G(0, 0) * G(2, 2) - G(0, 2) * G(2, 0) +
                         G(1, 1) * G(2, 2) - G(1, 2) * G(2, 1);
@@ -106,7 +106,7 @@ void HeldRod::placeStraight() {
 }
 
 Sweep HeldRod::sweepOnce() {
-  // Only a finished pass knows where the end is.
+  // The end is known only after Pass::kFinish.
   const Pass pass = nodes_hold_guess_ ? Pass::kFinish : Pass::kAnew;
   const Sweep result = sweep(chain_, loads(), load_.tail<3>(), pass, backbone_);
   end_moment_ = result.residual;
@@ -127,7 +127,7 @@ double HeldRod::linearise(double goal) {
   if (!has_columns_) return left;
   truncation_ = discretisation_.truncation(1.0, backbone_);
   const auto phi = columnsOf(tip.phi), p = columnsOf(tip.p), m = columnsOf(tip.m);
-  // End pose by load, in units in which all entries are alike: lengths of L, moments that bend by a radian.
+  // Derivative of the end pose by the load, in units that make all entries similar: L for lengths, 1 rad of bending for moments.
   const double L = length(), moment = 1.0 / (softness_ * L), force = moment / L;
   Matrix6 end_of_load;
   end_of_load.topLeftCorner<3, 3>() = (force / L) * p.rightCols<3>();
@@ -147,7 +147,7 @@ double HeldRod::linearise(double goal) {
   load_of_twist_.leftCols<3>().noalias() = load_of_end.leftCols<3>() * R.transpose();
   load_of_twist_.rightCols<3>().noalias() = load_of_end.rightCols<3>() * R.transpose();
 
-  // A longer rod carries more weight on its way, and goes on beyond its old end.
+  // The weight of a longer rod acts on more length, and the rod continues beyond its old end.
   const Matrix3& R_end = backbone_.X_BT.R;
   const Vector3 f = load_.head<3>(), weight = linear_density_ * gravity_;
   const Vector3 tangent = R_end * (Vector3::UnitZ() + backbone_.rest[0].c.shear_elongation * (R_end.transpose() * f));
@@ -160,7 +160,7 @@ double HeldRod::linearise(double goal) {
 }
 
 bool HeldRod::relieve() {
-  constexpr double kMostAnElement = 1.6;  // of L sqrt(|n| c_bt); pi and more would be unstable, whatever holds its ends
+  constexpr double kMostAnElement = 1.6;  // of L sqrt(|n| c_bt); from pi on it would be unstable, even with both ends clamped
   const double load_number = length() * std::sqrt(softness_ * load_.head<3>().norm());
   return load_number > kMostAnElement * backbone_.element_count[0] && choose();
 }
@@ -211,9 +211,9 @@ double HeldRod::bendingOf(const Vector6& load) const {
   return softness_ * length() * std::max(length() * load.head<3>().norm(), load.tail<3>().norm());
 }
 
-// Of the rotations phi(s) with phi = 0 at both ends, free to move the end, the second variation has as many negative
-// directions as there are conjugate points (see rod/conjugate_points.h). To hold the end, too, takes away as many as
-// the compliance of its position, rotation held, has negative eigenvalues.
+// For rotations phi(s) with phi = 0 at both ends, and a free position of the end, the second variation has as many negative
+// directions as there are conjugate points (see rod/conjugate_points.h). Clamping the position as well removes as many of
+// them as the compliance of that position, with clamped rotation, has negative eigenvalues.
 bool HeldRod::isStableHeld() const {
   const int end = backbone_.passes->stages;
   int free_end = 0;

@@ -1,6 +1,6 @@
 #pragma once
-// One rod of a parallel robot: clamped at the base, its end moved by a wrench of the platform. The same elements,
-// sweeps and columns as those of a serial robot, in the axes of the rod's base; but the end force is unknown, too.
+// One rod of a parallel robot: clamped at the base, its end moved by a wrench of the platform. Elements, iterations and
+// sensitivities are those of a serial robot, in the axes of the rod's base; but the end force is unknown, too.
 // docs/derivation.md, section 10, has the equations.
 
 #include "live_stiffness/parallel/parallel_scene.h"
@@ -15,38 +15,38 @@ class HeldRod {
   HeldRod(const ParallelRod& rod, const Vector3& gravity, double accuracy, Simd simd);
   HeldRod(const HeldRod&) = delete;  // its parts refer to one another
 
-  // What determines the shape: length between base and platform, m, and load = [force at the end; moment at the base],
-  // N and N m, axes of the rod's base. The guess of the elements follows, to first order.
+  // Sets what determines the shape: length between base and platform, m, and load = [force at the end; moment at the base],
+  // N and N m, axes of the rod's base. The guess of the elements is moved along, to first order.
   void setLength(double length);
   void changeLoad(const Vector6& change);
   void setLoad(const Vector6& load) { load_ = load; }
   double length() const { return chain_.parts[0].length; }
   const Vector6& load() const { return load_; }
 
-  // Forgets shape and load: straight, as many elements as before.
+  // Forgets shape and load: straight, with the same number of elements.
   void placeStraight();
-  // One pass over every element; `change` of the sweep is of its Cayley vectors, rad.
+  // One iteration of every element; `change` of the result is that of the Cayley vectors, rad.
   Sweep sweepOnce();
-  // The shape under the load, converged. False if it cannot be found.
+  // Iterates until the shape under the load has converged. False if it does not.
   bool march();
-  // What the matrices below need, for the shape of the last sweep: columns to `goal`, relative. Returns what
-  // the passes left, relative; infinity without success.
+  // Computes what the matrices below need, for the shape of the last iteration: sensitivities to the relative error `goal`.
+  // Returns their relative error; infinity without convergence.
   double linearise(double goal);
-  // Stages and elements for the load of now. True if that changed them: march() and linearise() anew.
+  // Chooses stages and elements for the present load. True if that changed them; then call march() and linearise() again.
   bool choose();
-  // The same where those at hand carry too much of it.
+  // The same, but only if the present elements bend too far.
   bool relieve();
   // More elements where the estimated error times `amplification` is above the accuracy. True as for choose().
   bool refine(double amplification);
 
-  // After a sweep, in B.
+  // After an iteration, in B.
   Pose X_BE() const { return X_BR_ * backbone_.X_BT; }
   Wrench endWrench() const;   // of the platform on the rod, at its end
   Wrench baseWrench() const;  // of the rest of the rod on the base, at the base
 
   // After linearise(), twists and wrenches at the end, base axes.
   const Matrix6& loadOfTwist() const { return load_of_twist_; }  // change of load that moves the end by a twist
-  const Matrix6& stiffness() const { return stiffness_; }        // end wrench that this takes
+  const Matrix6& stiffness() const { return stiffness_; }        // end wrench for a twist of the end
   const Twist& twistOfLength() const { return twist_of_length_; }     // of the end by a unit of length, load fixed
   const Wrench& wrenchOfLength() const { return wrench_of_length_; }  // the same of the end wrench
   double truncation() const { return truncation_; }                   // estimated relative error of discretisation
@@ -54,9 +54,9 @@ class HeldRod {
   // Material compliance of the rod about its end (10), base axes. Prepares the elements for stations.
   Matrix6 materialCompliance(double accuracy);
 
-  // A change of load as bending of the rod, rad.
+  // A change of load, expressed as bending of the rod, rad.
   double bendingOf(const Vector6& load) const;
-  // With both ends held the rod is stable. Exact (see held_rod.cpp) after linearise().
+  // True if the rod is stable with both ends clamped. Exact (see held_rod.cpp) after linearise().
   bool isStableHeld() const;
 
   const Backbone& backbone() const { return backbone_; }

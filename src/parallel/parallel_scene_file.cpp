@@ -9,7 +9,7 @@ namespace {
 
 constexpr size_t kMaxRods = 64;
 
-// Rotation that takes z to the axis by the shortest way; half a turn about x for -z.
+// The smallest rotation that takes z to the axis; half a turn about x for -z.
 Matrix3 orientationAlong(const Vector3& axis) {
   return Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), axis).toRotationMatrix();
 }

@@ -9,8 +9,8 @@
 namespace live_stiffness {
 namespace {
 
-// Misfits of rods load one another, which makes more of an error than in a rod alone: up to six times, measured over
-// the configurations of test/parallel.
+// An error of one rod loads the others, so errors are larger than in a single rod: up to six times, measured over the
+// configurations of test/parallel.
 constexpr double kMisfit = 8.0;
 constexpr double kOnTheWay = 1e-3, kFinest = 1e-13;  // goals of Newton's method, rad
 constexpr int kPathSlot = 0, kStepSlot = 1;  // snapshots of the coupling
@@ -20,7 +20,7 @@ constexpr int kPathSlot = 0, kStepSlot = 1;  // snapshots of the coupling
 ParallelStatics::ParallelStatics(const ParallelScene& scene, double accuracy, Simd simd)
     : scene_(scene), accuracy_(accuracy), coupling_(scene, accuracy, simd), start_lengths_(scene.rods.size(), 0.0) {}
 
-// On top of the last solution, with what a change of lengths and wrench does to first order.
+// From the last solution, moved to first order by the change of lengths and wrench.
 void ParallelStatics::setInputs(const Goal& goal, const Wrench& last_wrench) {
   constexpr double kLargestStep = 0.5;
   coupling_.wrench = goal.wrench;
@@ -42,7 +42,7 @@ bool ParallelStatics::linearise(Unknown unknown, ParallelReport& report) {
   return true;
 }
 
-// Sweeps of one pass over every element, each followed by a step with the matrices of the last linearisation.
+// Quasi-Newton: one iteration of every element, then a step with the matrices of the last linearisation, and so on.
 bool ParallelStatics::quick(Unknown unknown, ParallelReport& report) {
   constexpr int kMaxSweeps = 25;
   constexpr double kRounding = 1e-9, kLargestStep = 1.0;
@@ -66,8 +66,8 @@ bool ParallelStatics::quick(Unknown unknown, ParallelReport& report) {
   return false;
 }
 
-// Damped Newton steps on converged shapes. A step is good if the next one, by the same matrices, is smaller: a test
-// that stiff directions do not drown.
+// Damped Newton steps with converged shapes. A step is accepted if the next one, with the same matrices, is smaller; in this
+// test stiff directions do not dominate.
 bool ParallelStatics::newton(Unknown unknown, double goal, ParallelReport& report) {
   constexpr int kMaxSteps = 30;
   constexpr double kStalled = 1e-8, kLargestStep = 3.0, kLeastShare = 1e-3;
@@ -85,7 +85,7 @@ bool ParallelStatics::newton(Unknown unknown, double goal, ParallelReport& repor
       coupling_.makeStep(unknown, share);
       const double next = coupling_.marchAll() ? coupling_.findStep(unknown) : kInfinity;
       if (next <= (1.0 - 0.25 * share) * report.step) break;
-      if (report.step < kStalled) {  // rounding: as good as it gets
+      if (report.step < kStalled) {  // limited by rounding
         report.step = std::min(next, report.step);
         return linearise(unknown, report);
       }
@@ -97,7 +97,7 @@ bool ParallelStatics::newton(Unknown unknown, double goal, ParallelReport& repor
   return false;
 }
 
-// Newton along set(share), share from 0, where the coupling is in equilibrium, to 1: in one go, else in steps.
+// Newton's method along set(share), from share 0, where the coupling is in equilibrium, to 1: in one step, else in several.
 template <class Set>
 bool ParallelStatics::follow(Set set, Unknown unknown, ParallelReport& report) {
   constexpr double kLeastStep = 1.0 / 128.0;
@@ -119,7 +119,7 @@ bool ParallelStatics::follow(Set set, Unknown unknown, ParallelReport& report) {
   return done >= 1.0;
 }
 
-// From the equilibrium at hand to the inputs.
+// From the present equilibrium to that of the inputs.
 bool ParallelStatics::followInputs(const Goal& goal, ParallelReport& report) {
   const Wrench from = coupling_.wrench;
   const Pose start = coupling_.X_BP;
@@ -150,7 +150,7 @@ bool ParallelStatics::startCold(const Goal& goal, ParallelReport& report) {
   return followInputs(goal, report);
 }
 
-// Tangent, and more elements where the estimate asks for them.
+// Tangent, and more elements where the error estimate is too large.
 bool ParallelStatics::finish(Unknown unknown, ParallelReport& report) {
   constexpr int kMaxRefinements = 6;
   if (!linearise(unknown, report)) return false;

@@ -8,7 +8,7 @@
 namespace live_stiffness {
 namespace {
 
-// [v; w] moves the platform; scale: metres that count as much as a radian.
+// [v; w] moves the platform; scale: metres that have the same weight as one radian.
 Pose moved(const Pose& X, const Vector6& by, double scale) {
   return {expSo3(by.tail<3>() / scale) * X.R, X.p + by.head<3>()};
 }

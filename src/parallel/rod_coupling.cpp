@@ -7,14 +7,14 @@
 namespace live_stiffness {
 namespace {
 
-// A twist of P as one of the point at `lever` from it.
+// From a twist of P to the twist of the point at `lever` from it.
 Twist atLever(const Twist& twist, const Vector3& lever) {
   Twist result = twist;
   linear(result) += angular(twist).cross(lever);
   return result;
 }
 
-// A wrench at `lever` from P as one about P.
+// From a wrench at `lever` from P to the same wrench about P.
 Wrench aboutP(const Wrench& wrench, const Vector3& lever) {
   Wrench result = wrench;
   angular(result) += lever.cross(linear(wrench));
@@ -178,7 +178,7 @@ void RodCoupling::makeStep(Unknown unknown, double share) {
   }
   for (size_t i = 0; i < rods_.size(); ++i) {
     if (unknown != Unknown::kPose) {
-      const double least = 0.5 * rods_[i].length();  // never through zero
+      const double least = 0.5 * rods_[i].length();  // lengths stay positive
       rods_[i].setLength(std::max(least, rods_[i].length() + share * length_step_[i]));
     }
     rods_[i].changeLoad(share * load_step_[i]);

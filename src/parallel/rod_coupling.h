@@ -1,11 +1,13 @@
 #pragma once
 // The linearised equations of rods and platform together, with the rods' unknowns eliminated rod by rod.
 //
-// With x a change of the platform's pose (twist of P) or of the rods' lengths l, each rod has to meet its place,
-//   J_i dw_i + e_i dl_i = err_i + H_i x,   H_i the twist of its end by that of P,
-// and the platform to balance, sum_i H_i^T [f; m]_i = [F; M]. K_i = d[f; m]_i / d(end pose) turns the first into the
-// second, which leaves six equations: with lengths given, K_P x = imbalance, and K_P^-1 is the tangent compliance of P
-// under a dead wrench; with the pose given, six lengths. (53) is the same sum without what the loads themselves do.
+// x is a change of the platform's pose (twist of P), l are the lengths of the rods. The end of each rod must stay on the
+// platform,
+//   J_i dw_i + e_i dl_i = err_i + H_i x,   H_i maps a twist of P to that of the rod's end,
+// and the platform must be in balance, sum_i H_i^T [f; m]_i = [F; M]. With K_i = d[f; m]_i / d(end pose) the first is put
+// into the second, which leaves six equations. For given lengths, K_P x = imbalance, and K_P^-1 is the tangent compliance
+// of P under a dead wrench; for a given pose the unknowns are six lengths. (53) is the same sum without the change of the
+// loads' lever arms.
 
 #include <deque>
 

@@ -9,7 +9,7 @@
 namespace live_stiffness {
 namespace {
 
-// Derivatives over a rigid piece, base axes; n: the force that turns with it.
+// Derivatives across a rigid part, base axes; n: the force that acts on its lever.
 LIVE_STIFFNESS_INLINE void carryColumns(const double (&along)[3], const double (&n)[3], ElementColumns& at) {
   for (int k = 0; k < 6; ++k) {
     double moved[3], moment[3];
@@ -98,12 +98,12 @@ struct ChainPasses {
 
   static double columns(const ChainState& chain, bool anew, ColumnSet set, double goal, bool with_defect,
                         ElementColumns& tip) {
-    // Before the first element: the base moment itself, and nothing moves.
+    // At the base: the moment changes, and nothing moves.
     static constexpr ElementColumns kBase = {{}, {}, {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}, {}};
     const bool has_offset = hasOffset(chain);
     ElementColumns room[2];
     const ElementColumns* start = &kBase;
-    // Of the defects no element sees more than its own part.
+    // The adjoint-weighted residual is a sum over elements; each adds its own part.
     const double part_goal = with_defect ? goal / countElements(chain) : goal;
     double left = 0.0;
     Place at(chain.base_force, kNothing);
@@ -135,7 +135,7 @@ struct ChainPasses {
     if (e.is_arc) add(e.compliance, e.end_compliance);  // about its end as it is
   }
 
-  // Material compliance of what a walk has passed, about where it is.
+  // Material compliance of everything up to here, about this section.
   class Passed {
    public:
     LIVE_STIFFNESS_INLINE void pass(ElementState& e) {
@@ -187,7 +187,7 @@ struct ChainPasses {
         [&](ElementState& e, bool) {
           at.enter(e);
           const double bending = e.length * e.length * squaredNorm(e.rest_curvature);
-          if (!(bending <= kMaxUnloadedBending * kMaxUnloadedBending)) error += 1.0;  // the series are no good there
+          if (!(bending <= kMaxUnloadedBending * kMaxUnloadedBending)) error += 1.0;  // beyond the range of the series
           if (bendsAsArc(e)) {
             placeArc(e);
           } else {

@@ -1,8 +1,8 @@
 #pragma once
-// An element on which nothing external acts and which bends the same in all directions is an arc of a circle: pose and
-// material compliance of any of its sections in closed form. One lane is one section. See docs/derivation.md.
+// An element without external load that bends equally in all directions is an arc of a circle: pose and material compliance
+// of its sections in closed form. Each lane is one section. See docs/derivation.md, section 7.
 //
-// With the angle theta = s |u_rest|, q1 in the plane of the arc and across its first tangent q3, q2 = q3 x q1 its axis:
+// With the angle theta = s |u_rest|, q3 the tangent at the start, q1 normal to it in the plane of the arc, q2 = q3 x q1:
 //   d = q1 sin(theta) + q3 cos(theta),   r = s (q1 (1 - cos(theta)) + q3 sin(theta)) / theta,
 //   S = c_s I + (c_e - c_s) d d^T,   B = c_b I + (c_t - c_b) d d^T,
 // so that all entries of (10) are integrals of powers of sines and cosines, and these are polynomials in
@@ -27,7 +27,7 @@ struct Arc {
 LIVE_STIFFNESS_INLINE void setPlane(ElementState& e) {
   const double* u = e.rest_curvature;
   const double square = u[0] * u[0] + u[1] * u[1];
-  const bool straight = !(square > 1e-290);  // below, digits of the square are lost, and any axis will do
+  const bool straight = !(square > 1e-290);  // smaller squares lose digits, and then any axis is right
   const double root = __builtin_sqrt(square), per_root = 1.0 / root;
   const double ax = straight ? 1.0 : per_root * u[0], ay = straight ? 0.0 : per_root * u[1];
   e.arc_square = straight ? 0.0 : square;
@@ -68,7 +68,7 @@ LIVE_STIFFNESS_INLINE Arc arcTo(const ElementState& e, Lanes s) {
   const Lanes K12 = cb * int_r3, K21 = -(cb * int_r3 + db * xd1), K23 = db * xd3 - cb * int_r1, K32 = cb * int_r1;
   const Lanes bend = cb * s, D11 = db * d1d1, D33 = db * d3d3, D13 = -db * d1d3;  // W = bend I + D
 
-  // Seen from its end it is the same arc, with the basis q1', -q2, -q3' of there instead of q1, q2, q3: hence the signs.
+  // Seen from its end it is the same arc, with that end's basis q1', -q2, -q3' instead of q1, q2, q3: hence the signs.
   Lanes P1[3], P3[3], D1[3], D3[3], K1[3], K3[3];
   for (int i = 0; i < 3; ++i) {
     P1[i] = P11 * across[i] + P13 * along[i], P3[i] = P13 * across[i] + P33 * along[i];

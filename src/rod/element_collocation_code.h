@@ -1,5 +1,5 @@
 #pragma once
-// Integrals along one element by Gauss collocation; one lane is one node, the last one the element's end.
+// Integrals along one element by Gauss collocation; each lane is one node, the last one the end of the element.
 
 #include "rod/lanes.h"
 

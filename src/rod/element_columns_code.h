@@ -1,5 +1,6 @@
 #pragma once
-// Linearised rod of one element: how its sections turn and move with the base moment and the tip force.
+// Linearised rod of one element: derivatives of its sections' rotation, position and moment by base moment and tip force
+// (sensitivities; one column for each component).
 
 #include "rod/element_collocation_code.h"
 #include "rod/element_section_code.h"
@@ -52,7 +53,7 @@ struct Columns : Collocation<kStages> {
     for (int v = 0; v < kVectors; ++v) store(e.dm[k], v, splat(start.m[k]) + moment.at[v]);
   }
 
-  // How far the end moves by column k.
+  // Displacement of the end in column k.
   static LIVE_STIFFNESS_INLINE void move(const GaussLegendre& t, const ElementState& e, int k, Lanes (&along)[18]) {
     Lanes3 p{};
 #pragma GCC unroll 4
@@ -60,16 +61,16 @@ struct Columns : Collocation<kStages> {
     along[3 * k] = p.x, along[3 * k + 1] = p.y, along[3 * k + 2] = p.z;
   }
 
-  // What a pass finds of the columns that it starts from.
+  // What an iteration computes from the sensitivities with which it starts.
   struct Found {
     double phi_end[6][3];
     Lanes along[18];
-    StageRow moment[6][3];   // change of the moment for an observer who turns with the section; B times it is phi'
-    StageRow missing[6][3];  // weight times phi' that the moments demand, less that which phi was made of
+    StageRow moment[6][3];   // change of the moment relative to the rotating section, mu of docs/derivation.md; phi' = B mu
+    StageRow missing[6][3];  // weight times (phi' from the moments, minus phi' of which phi is the integral)
   };
 
-  // Moments, then phi' = B (dm - phi x m), of three columns. In this order the change of phi shows whatever is not yet
-  // right; it is returned, relative.
+  // Moments, then phi' = B (dm - phi x m), of three columns. In this order the change of phi shows every error that is left;
+  // its relative size is returned.
   template <int kFirst>
   static double columnPass(ElementState& e, const ElementColumns& start, Found& found) {
     const GaussLegendre& t = table();
@@ -98,14 +99,14 @@ struct Columns : Collocation<kStages> {
     return __builtin_sqrt(sum(change) / (sum(size) + 1e-300));
   }
 
-  // Until less than `goal` is left, relative; which is returned, infinity without convergence.
+  // Iterates until the relative error is below `goal`. Returns it; infinity without convergence.
   template <int kFirst>
   static double columnPasses(ElementState& e, const ElementColumns& start, double goal, bool with_defect, Found& found) {
     constexpr int kMaxPasses = 60;
     double last_change = __builtin_inf();
     for (int i = 0; i < kMaxPasses; ++i) {
       const double change = columnPass<kFirst>(e, start, found);
-      // What is left after a pass is about its change times the rate at which changes shrink.
+      // The error after an iteration is about its change times the convergence rate.
       const double rate = i > 0 && change < 0.2 * last_change ? change / last_change : 0.2;
       const double left = with_defect ? change : change * rate;
       if (left <= goal || (change <= 1e-13 && change >= last_change)) return left;
@@ -134,7 +135,7 @@ struct Columns : Collocation<kStages> {
     estimateTruncation(table(), e, end);
   }
 
-  // Of the columns that the last pass started from.
+  // For the sensitivities with which the last iteration started.
   template <int kCount>
   static LIVE_STIFFNESS_INLINE void addDefect(const Found& found, const ElementColumns& start, ElementColumns& end) {
     Lanes work[kCount * kCount];
@@ -166,7 +167,7 @@ struct Columns : Collocation<kStages> {
       for (int i = 0; i < 3; ++i) e.phi_start[k][i] = start.phi[k][i];
   }
 
-  // The columns held go on from where those before them end now.
+  // Starts the element's sensitivities from the present end of the element before it.
   template <int kCount>
   static LIVE_STIFFNESS_INLINE void moveStart(ElementState& e, const ElementColumns& start) {
     for (int k = 0; k < kCount; ++k) {
@@ -184,7 +185,7 @@ struct Columns : Collocation<kStages> {
     else moveStart<kCount>(e, start);
     linearise(e);
     Found found;
-    // Base moment and tip force have their own units, and a share of the goal each.
+    // Base moment and tip force have different units, so each has its own share of the goal.
     double left = columnPasses<0>(e, start, kCount == 6 ? __builtin_sqrt(0.5) * goal : goal, with_defect, found);
     if (kCount == 6 && __builtin_isfinite(left)) {
       const double rest = __builtin_sqrt(largerOf(goal * goal - left * left, 0.0));
@@ -214,7 +215,7 @@ struct Columns : Collocation<kStages> {
                                   : propagateFirst<3>(e, anew, start, goal, with_defect, end);
   }
 
-  // As that of the shape, which says nothing of a straight rod under load.
+  // Like that of the shape, which is zero for a straight rod under load.
   static LIVE_STIFFNESS_INLINE void estimateTruncation(const GaussLegendre& t, ElementState& e,
                                                        const ElementColumns& end) {
     Lanes top[9], below[9];
@@ -231,7 +232,7 @@ struct Columns : Collocation<kStages> {
     sums(top, a);
     sums(below, b);
     for (int k = 0; k < 9; ++k) size += end.phi[k / 3][k % 3] * end.phi[k / 3][k % 3];
-    const double turn = e.length * largerOf(e.bend_xx, e.bend_yy);  // by the unit moment
+    const double turn = e.length * largerOf(e.bend_xx, e.bend_yy);  // rotation by the unit moment
     e.column_truncation = turn * turn * largerOf(squaredNorm(a), kDecay * kDecay * squaredNorm(b)) / size;
   }
 };

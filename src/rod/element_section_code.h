@@ -1,7 +1,7 @@
 #pragma once
-// The section's law and what else shape, columns and material compliance of an element share. In body axes the
-// actuation wrench of a fluidic segment is constant along it, so it is a rest strain and not a load (see
-// docs/derivation.md):
+// The constitutive law of a section, and other code that shape, sensitivities and material compliance of an element share. In
+// section axes the actuation wrench of a fluidic segment is constant along it, so it is a rest strain and not a load (see
+// docs/derivation.md, section 1):
 //   v = e3 + c_se R^T n,   u = u_rest + c_bt R^T m                                             (7), (9), (37)
 // with n, m the external loads only.
 
@@ -35,7 +35,7 @@ LIVE_STIFFNESS_INLINE LanesMatrix stretchOf(const ElementState& e, Lanes3 z) {
   S.x.x += e.shear, S.y.y += e.shear, S.z.z += e.shear;
   return S;
 }
-// sin(t) / t, (1 - cos(t)) / t^2 and (t - sin(t)) / t^3 in x = t^2, good to rounding up to kMaxUnloadedBending.
+// sin(t) / t, (1 - cos(t)) / t^2 and (t - sin(t)) / t^3 in x = t^2, exact to rounding up to kMaxUnloadedBending.
 constexpr int kTerms = 10;
 constexpr double kSine[kTerms] = {
     1.0, -0.16666666666666666, 0.008333333333333333, -0.0001984126984126984, 2.7557319223985893e-06,
@@ -49,7 +49,7 @@ constexpr double kThird[kTerms] = {
     0.16666666666666666, -0.008333333333333333, 0.0001984126984126984, -2.7557319223985893e-06,
     2.505210838544172e-08, -1.6059043836821613e-10, 7.647163731819816e-13, -2.8114572543455206e-15,
     8.22063524662433e-18, -1.9572941063391263e-20};
-// Even and odd powers apart: half as long to wait for as Horner's rule.
+// Even and odd powers separately: half the latency of Horner's rule.
 LIVE_STIFFNESS_INLINE Lanes series(const double (&k)[kTerms], Lanes x) {
   const Lanes x2 = x * x;
   Lanes even = splat(k[kTerms - 2]), odd = splat(k[kTerms - 1]);
@@ -73,7 +73,7 @@ LIVE_STIFFNESS_INLINE double squaredNorm(const double (&a)[n]) {
   return sum;
 }
 LIVE_STIFFNESS_INLINE double largerOf(double a, double b) { return a > b ? a : b; }
-// How much smaller each Legendre coefficient is at most taken to be than the one before.
+// Smallest ratio of a Legendre coefficient to the one before that the error estimate assumes.
 constexpr double kDecay = 0.05;
 
 }  // namespace

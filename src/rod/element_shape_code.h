@@ -15,7 +15,7 @@ struct Shape : Collocation<kStages> {
   using typename Base::Rows;
   using Base::integral, Base::table, Base::kVectors;
 
-  // What the sections' orientations determine, in the axes of the start.
+  // What follows from the orientations of the sections, in the axes of the element's start.
   struct Section {
     LanesMatrix R;
     Lanes3 n, tangent;
@@ -71,7 +71,7 @@ struct Shape : Collocation<kStages> {
     endLoads(e, all.at[kVectors - 1].n, all.moment.at[kVectors - 1]);
   }
 
-  // The shape at the nodes and the end from g as it is.
+  // The shape at the nodes and the end, evaluated from g.
   static void evaluate(ElementState& e) {
     const GaussLegendre& t = table();
     const Lanes h = splat(e.length);
@@ -114,7 +114,7 @@ struct Shape : Collocation<kStages> {
     rotate(e.R_start, {xz + y, yz - x, 1.0 - xx - yy}, column), put(2);
   }
 
-  // The highest coefficient alone may pass through zero by accident; the one below it says how large it could be.
+  // The highest coefficient may be zero by accident; the one below it shows how large it could be.
   static LIVE_STIFFNESS_INLINE void estimateTruncation(ElementState& e, const GaussLegendre& t) {
     double top = 0.0, below = 0.0;
     for (int i = 0; i < 3; ++i) {
@@ -127,7 +127,7 @@ struct Shape : Collocation<kStages> {
       below += b * b;
     }
     e.truncation = __builtin_fabs(e.length) * __builtin_sqrt(largerOf(top, kDecay * kDecay * below));
-    // Between the nodes the first coefficient left out shows, once integrated; it goes on shrinking as the last ones.
+    // Between the nodes the error is the integral of the first coefficient left out, extrapolated from the last ones.
     double shrink = below > 0.0 ? __builtin_sqrt(top / below) : 0.0;
     shrink = shrink < kDecay ? kDecay : shrink > 1.0 ? 1.0 : shrink;
     e.interior_error = e.truncation * shrink / kStages;
@@ -147,7 +147,7 @@ struct Shape : Collocation<kStages> {
     }
   }
 
-  // Goes on by `steadiness` times the last change; without it only keeps what there is, whatever was before.
+  // Extrapolates by `steadiness` times the last change; for 0 only stores the present values for the next time.
   template <int n>
   static LIVE_STIFFNESS_INLINE void extrapolate(double steadiness, StageRow (&now)[n], StageRow (&before)[n]) {
     for (int k = 0; k < n; ++k)
@@ -169,7 +169,7 @@ struct Shape : Collocation<kStages> {
     for (int k = 0; k < 6; ++k) {
       extrapolate(steadiness, e.phi[k], e.phi_before[k]);
       extrapolate(steadiness, e.phi_rate[k], e.phi_rate_before[k]);
-      for (int i = 0; i < 3; ++i) {  // where phi starts from: propagate() adds only what is still missing there
+      for (int i = 0; i < 3; ++i) {  // start of phi; propagate() later adds the difference
         const double x = e.phi_start[k][i];
         if (steadiness != 0.0) e.phi_start[k][i] = x + steadiness * (x - e.phi_start_before[k][i]);
         e.phi_start_before[k][i] = x;
@@ -186,7 +186,7 @@ struct Shape : Collocation<kStages> {
       pass(e);
       const double goal = kConverged * (1.0 + e.size);
       if (!isSound(e)) break;  // NaN, or near the singularity at half a turn
-      // Rounding can leave a last-digit wobble just above the bound: stop there once it no longer shrinks.
+      // Rounding can keep the change just above the bound; then stop when it no longer shrinks.
       converged = e.change <= goal || (e.change <= 20.0 * goal && e.change >= last_change);
       last_change = e.change;
     }
@@ -194,7 +194,7 @@ struct Shape : Collocation<kStages> {
     return converged;
   }
 
-  // An element is trusted up to about 2.4 rad between its ends: 4 (kStages + 1) is the square of `size` there.
+  // An element may bend by up to about 2.4 rad between its ends: 4 (kStages + 1) is the square of `size` there.
   static LIVE_STIFFNESS_INLINE bool isSound(const ElementState& e) { return e.size * e.size <= 4.0 * (kStages + 1); }
 
   static void placeUnloaded(ElementState& e) {
@@ -218,7 +218,7 @@ struct Shape : Collocation<kStages> {
     }
     e.change = e.truncation = e.interior_error = 0.0;
   }
-  // A turn phi of a section in space, R -> exp(hat(phi)) R, turns g at the rate phi - g x phi / 2 + g (g . phi) / 4.
+  // A rotation phi of a section in base axes, R -> exp(hat(phi)) R, changes g at the rate phi - g x phi / 2 + g (g . phi) / 4.
   static void follow(ElementState& e, const double (&change)[3]) {
     double turn_start[3] = {};
     for (int k = 0; k < 3; ++k)

@@ -1,7 +1,7 @@
 #pragma once
-// Vectors of LIVE_STIFFNESS_LANES doubles, and 3-vectors and 3x3 matrices made of them: one lane is one Gauss node (or
-// one station). Included by one translation unit per instruction set; everything has internal linkage, so that no code
-// of one set can be linked into another.
+// SIMD vectors of LIVE_STIFFNESS_LANES doubles (packs), and 3-vectors and 3x3 matrices of them: each lane is one Gauss node
+// (or one station). Included by one translation unit for each instruction set. Everything has internal linkage, so that code
+// of one instruction set cannot be linked into another.
 
 #include "rod/element_state.h"
 
@@ -27,7 +27,7 @@ LIVE_STIFFNESS_INLINE double sum(Lanes x) {
   return result;
 }
 
-// The lanes of a and b, counted through, that are named. gcc 9, which Noetic has, and clang share no such builtin.
+// Selects lanes by their index: those of a first, then those of b. gcc 9 (Noetic) and clang have no builtin in common for this.
 #if defined(__clang__)
 #define LIVE_STIFFNESS_PICK(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
 #else
@@ -35,8 +35,8 @@ typedef long long LanesMask __attribute__((vector_size(8 * LIVE_STIFFNESS_LANES)
 #define LIVE_STIFFNESS_PICK(a, b, ...) __builtin_shuffle(a, b, LanesMask{__VA_ARGS__})
 #endif
 
-// Sums over the lanes of each row, and rows to one array a lane (out[lane][0...] = rows[...][lane]), a square at a
-// time.
+// Sums over the lanes of each row, and transposition of rows to one array for each lane (out[lane][0...] = rows[...][lane]),
+// square by square.
 LIVE_STIFFNESS_INLINE Lanes sumsOfSquare(const Lanes* rows) {
 #if LIVE_STIFFNESS_LANES == 4
   const Lanes a = LIVE_STIFFNESS_PICK(rows[0], rows[1], 0, 4, 2, 6) + LIVE_STIFFNESS_PICK(rows[0], rows[1], 1, 5, 3, 7);
@@ -73,8 +73,8 @@ LIVE_STIFFNESS_INLINE void storeAcross(const Lanes (&rows)[n], double* const* ou
   for (int i = 0; i < n; i += kLanes) storeSquareAcross(rows + i, out, i);
 }
 
-// The first lane of each row. In whole vectors, as far as they go: what reads vectors next would wait for numbers that
-// were stored one by one.
+// The first lane of each row. Stores whole vectors where possible, since vector loads of numbers that were just stored one by
+// one are slow.
 template <int n>
 LIVE_STIFFNESS_INLINE void storeFirst(const Lanes (&rows)[n], double* out) {
   for (int i = 0; i + kLanes <= n; i += kLanes) {
@@ -85,7 +85,7 @@ LIVE_STIFFNESS_INLINE void storeFirst(const Lanes (&rows)[n], double* out) {
   for (int i = n / kLanes * kLanes; i < n; ++i) out[i] = rows[i][0];
 }
 
-// The same back: rows[...][lane] = in[lane][...].
+// The inverse: rows[...][lane] = in[lane][...].
 template <int n>
 LIVE_STIFFNESS_INLINE void loadAcross(const double (*in)[n], Lanes* rows) {
   static_assert(n % kLanes == 0);

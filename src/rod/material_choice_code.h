@@ -1,5 +1,5 @@
 #pragma once
-// Which grid gives the material compliance of an element as accurately as it is wanted, and how accurate it then is.
+// Chooses the grid for the material compliance of an element at the accuracy asked for, and estimates its error.
 
 #include "rod/element_arc_code.h"
 #include "rod/element_material_code.h"
@@ -7,8 +7,8 @@
 namespace live_stiffness {
 namespace {
 
-// Relative error of interpolation by kDense nodes in an element that bends by x rad, at its worst section. Arcs of any
-// bending up to kMaxUnloadedBending err by 0.6 to 1 of it.
+// Relative error of interpolation by kDense nodes in an element that bends by x rad, at its worst section. The true error of
+// arcs, for any bending up to kMaxUnloadedBending, is 0.6 to 1 times this.
 template <int kDense>
 LIVE_STIFFNESS_INLINE double interpolationError(double x_squared) {
   double error = (kDense == 4 ? 2.0e-3 : kDense == 8 ? 2.7e-8 : 1.7e-13) * (1.0 + 0.25 * x_squared);
@@ -16,13 +16,13 @@ LIVE_STIFFNESS_INLINE double interpolationError(double x_squared) {
   return error;
 }
 
-// The same of the integral over the whole element; of 8 nodes and more it is below rounding.
+// The same for the integral over the whole element; for 8 nodes and more it is below rounding.
 template <int kDense>
 LIVE_STIFFNESS_INLINE double quadratureError(double x_squared) {
   return kDense == 4 ? 5e-8 * x_squared * x_squared * x_squared * (1.0 + 0.25 * x_squared) : 0.0;
 }
 
-// On the cheapest grid that is accurate enough.
+// With the cheapest grid that is accurate enough.
 template <int kStages>
 struct MaterialChoice {
   static void material(ElementState& e, bool unloaded, double accuracy) {

@@ -1,5 +1,5 @@
 #pragma once
-// Symmetric 6x6 compliances in 21 numbers (see kPackedSize), of one section or one a lane.
+// Symmetric 6x6 compliances in 21 numbers (see kPackedSize), of one section or of one section in each lane.
 
 #include "rod/lanes.h"
 
@@ -36,13 +36,13 @@ LIVE_STIFFNESS_INLINE void shift(const T (&d)[3], T* at) {
   P[5] = P[5] - (a[2][2] + b[2][2]);
 }
 
-// One compliance, in a function of its own: most are not shifted, and need not pay for it.
+// One compliance, in a function of its own, since most are not shifted.
 __attribute__((noinline)) void shiftOne(const double (&d)[3], PackedRow& at) { shift(d, at); }
 
-// True at the base: there each direction can bend.
+// True at the base only: beyond it the robot can bend in every direction, so that its angular block is positive.
 LIVE_STIFFNESS_INLINE bool isNothing(const PackedRow& compliance) { return compliance[15] == 0.0; }
 
-// A batch of sections of an element goes out, one a lane. r: from the element's start, m; at: compliance of everything
+// Stores a batch of sections of an element, one in each lane. r: from the element's start, m; at: compliance of everything
 // before the section, about it.
 LIVE_STIFFNESS_INLINE void storeSections(const ElementState& e, const StationResults& out, int v, const LanesMatrix& R,
                                          const Lanes (&r)[3], const Lanes* at) {

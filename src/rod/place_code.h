@@ -1,5 +1,5 @@
 #pragma once
-// Where a walk along a chain has arrived.
+// The present position of a loop along a chain, from base to tip.
 
 #include "rod/packed_compliance_code.h"
 
@@ -21,7 +21,7 @@ LIVE_STIFFNESS_INLINE void add(const PackedRow& more, PackedRow& to) {
 
 constexpr double kIdentity[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}, kNothing[3] = {};
 
-// Where a walk along a chain has arrived: pose of the section, and loads there (base axes).
+// The present position of a loop along a chain: pose of the section, and loads there (base axes).
 class Place {
  public:
   LIVE_STIFFNESS_INLINE Place(const double (&force)[3], const double (&moment)[3]) : n(&force), m(&moment) {}
@@ -36,8 +36,8 @@ class Place {
     R = &e.R_end, n = &e.n_end, m = &e.m_end;
     for (int i = 0; i < 3; ++i) p[i] = e.p_start[i] + e.offset_end[i];
   }
-  // Over a rigid piece, axes of the section; weight: of its own, at its middle, N. Returns the piece in base axes and
-  // the force that turns with it.
+  // Across a rigid part (axes of the section); weight: its own, at its middle, N. Returns the part in base axes and the
+  // force that acts on its lever.
   struct Rigid {
     double along[3], force[3];
   };

@@ -1,12 +1,12 @@
 #pragma once
-// Tangent compliance of a chain from the columns at its tip: docs/derivation.md, section 5.
+// Tangent compliance of a chain from the sensitivities (columns) at its tip: docs/derivation.md, section 5.
 
 #include "rod/packed_compliance_code.h"
 
 namespace live_stiffness {
 namespace {
 
-// A 6-vector [linear; angular], as many lanes as it takes.
+// A 6-vector [linear; angular] in SIMD vectors.
 struct Six {
   static constexpr int kVectors = (6 + kLanes - 1) / kLanes;
   Lanes v[kVectors];
@@ -21,7 +21,7 @@ struct Six {
   LIVE_STIFFNESS_INLINE void add(double k, const Six& a) {
     for (int i = 0; i < kVectors; ++i) v[i] += k * a.v[i];
   }
-  // Writes beyond its end with four lanes, unless it is the last.
+  // With four lanes it also writes the two numbers behind the column, unless it is the last.
   LIVE_STIFFNESS_INLINE void store(double* to, bool last) const {
     for (int i = 0; i < kVectors; ++i) {
       if (kLanes * (i + 1) <= 6 || !last) storeUnaligned(to + kLanes * i, v[i]);
@@ -31,7 +31,7 @@ struct Six {
 };
 
 // With dm0 = X df + Y dM, X = -A^-1 B, Y = A^-1 from the residual's columns [A, B]: [df; dM] to the twist of T is
-// C = (Q + T^T G) T with T = [X, Y; I, 0], Q the columns' twists and G their defect, if it is to be corrected.
+// C = (Q + T^T G) T with T = [X, Y; I, 0], Q the twists of the columns and G their adjoint-weighted residual, if corrected.
 // A_inverse, C: column-major.
 void tangent(const ElementColumns& tip, bool correct, double* A_inverse, double* C) {
   double row[3][3], Y[3][3], X[3][3];  // Y[k][j], X[k][j]: entry (k, j)
