@@ -39,7 +39,7 @@ std::string writeFault(const std::string& path) {
   constexpr std::uintmax_t kLittle = 1 << 20;  // bytes
   if (!error && space.available < kLittle)
     return "cannot be written: " + std::to_string(space.available) + " bytes are left on its disk";
-  return "cannot be written: may its folder be written to, and is there room on its disk?";
+  return "cannot be written: is its folder writable, and is there space on its disk?";
 }
 
 void writeTextFile(const std::string& subject, const std::string& path, const std::string& text) {

@@ -63,8 +63,8 @@ std::string reportText(const CalibrationResult& result) {
                    result.parameters[static_cast<size_t>(i)].parameter.name + ": " +
                    numberText(result.correlation(i, j)) + "\n";
     if (!pairs.empty()) out << "\nstrongly correlated:\n" << pairs;
-    if (result.undetermined.empty()) out << "\nthe data determine every direction better than the priors do\n";
-    else out << "\nthe data cannot tell these changes from none (the prior decides):\n";
+    if (result.undetermined.empty()) out << "\nthe data determine all combinations of the parameters better than the priors do\n";
+    else out << "\nthe data determine these combinations less well than the priors do:\n";
     for (const UndeterminedDirection& direction : result.undetermined)
       out << "  " << directionText(direction, result.parameters) << "\n";
   }

@@ -71,7 +71,7 @@ void describeParameters(const CalibrationProblem& problem, const std::vector<Sce
     fit.determined = turn < kMostTurnError && offset < kMostOffsetError;
     fit.verdict = std::string(fit.determined ? "determined" : "NOT determined by these data") + ": base rotation +- " +
                   numberText(turn) + " deg, sensor offset +- " + numberText(1e3 * offset) + " mm";
-    if (!fit.determined) fit.verdict += "; bend the robot well towards at least two sides, or measure the offset";
+    if (!fit.determined) fit.verdict += "; bend the robot far in at least two directions, or measure the offset";
   }
 }
 

@@ -196,7 +196,7 @@ std::string RegistrationFit::advice() const {
   if (!base_rotation_determined) what = "the base's rotation";
   if (!sensor_offset_determined) what += (what.empty() ? "" : " and ") + std::string("the sensor's offset");
   return "the motion does not determine " + what + " (sensitivity " + numberText(weakest_sensitivity) + " < " +
-         numberText(kWeakSensitivity) + "): bend the robot well towards at least two sides, or measure the offset";
+         numberText(kWeakSensitivity) + "): bend the robot far in at least two directions, or measure the offset";
 }
 
 }  // namespace live_stiffness

@@ -69,7 +69,7 @@ void check(const Series& series) {
   const size_t count = series.times.size();
   if (count < 3) faults.add(std::to_string(count) + " samples: must be at least 3");
   if (series.predicted.size() != count || series.measured.size() != count || series.used.size() != count)
-    faults.add("times, predicted, measured and used differ in number");
+    faults.add("times, predicted, measured and used: must have the same number of entries");
   faults.throwIfAny();
   long usable = 0;
   for (size_t i = 0; i < count; ++i) {

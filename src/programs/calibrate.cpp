@@ -27,7 +27,7 @@ constexpr int kExitOk = 0, kExitNotConverged = 1, kExitUsage = 2;
 const char* const kHelp =
     "calibrate SCENE.yaml [RECORDING.csv|.bag ...] [--compliance-table TABLE.csv ...] [--parameters NAME ...]\n\n"
     "Fits parameters of the scene, and the registration of each recording (base in tracker, sensor on tip), together.\n"
-    "Prints estimates with standard errors, what the data cannot tell apart, and errors with blocks left out.\n"
+    "Prints estimates with standard errors, what the data do not determine, and errors with blocks left out.\n"
     "`--parameters none` registers only. `--list` prints the parameters of the scene and of a force sensor.\n\n";
 
 struct Arguments {
@@ -62,7 +62,7 @@ po::options_description describe(Arguments& a) {
     ("loads", po::value(&a.loads)->default_value(a.loads),
      "samples under contact: ignore; predict (with the force sensor's wrench, not fitted); or fit")
     ("tracker-delay-s", po::value(&a.tracker_delay)->default_value(0.0),
-     "by which the tracker is late against pressures and force sensor; register_recording --fit-delay finds it")
+     "delay of the tracker relative to pressures and force sensor; register_recording --fit-delay finds it")
     ("channels", po::value(&a.channels), "pressure channels (default: those of the recording)")
     ("model", po::value(&a.model), "lpcc, npcc, lcm or ncm")
     ("stepping", po::value(&a.stepping), "fixed_step, continuous or linear")
@@ -71,7 +71,7 @@ po::options_description describe(Arguments& a) {
     ("no-orientation", po::bool_switch(&a.no_orientation), "fit positions only")
     ("compliance-sigma", po::value(&a.compliance)->default_value(0.05), "of measured compliances, relative")
     ("correlation-time-s", po::value(&a.correlation)->default_value(1.0), "samples nearer than this share their error")
-    ("huber", po::value(&a.huber)->default_value(2.0), "residuals beyond so many sigmas count linearly only")
+    ("huber", po::value(&a.huber)->default_value(2.0), "residuals beyond this number of sigmas have linear weight")
     ("blocks", po::value(&a.blocks)->default_value(8), "of each recording, left out in turn; 0: skip")
     ("output,o", po::value(&a.output), "write the calibrated scene here")
     ("registration", po::value(&a.registration), "write the first recording's registration here (the node loads it)")
@@ -179,7 +179,7 @@ int run(const Arguments& a, const std::string& command) {
   for (const std::string& text : a.bounds)
     readPair(text, "bounds", parameters, faults, &SceneParameter::low, &SceneParameter::high);
   if (fits_sensor && *loads != LoadedSamples::kFit)
-    faults.add("parameters of the force sensor want samples under contact: give --loads fit");
+    faults.add("parameters of the force sensor need samples under contact: give --loads fit");
   faults.throwIfAny();
   std::vector<ComplianceRow> rows;
   for (const std::string& path : a.tables)

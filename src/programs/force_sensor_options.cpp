@@ -19,11 +19,11 @@ void ForceSensorOptions::addTo(po::options_description& options) {
     ("force-sensor-height-m", po::value(&height_)->default_value(0.0), "its origin above T")
     ("force-sensor-sign", po::value(&sign_)->default_value(1.0), "1: reports what acts on the robot; -1: the opposite")
     ("force-sensor-crosstalk-x", po::value(&crosstalk_x_)->default_value(0.0),
-     "share of its fz that shows in fx (crosstalk, or its axis leans): taken off")
+     "share of its fz that appears in fx (crosstalk, or a tilted axis), which is subtracted")
     ("force-sensor-crosstalk-y", po::value(&crosstalk_y_)->default_value(0.0), "the same in fy")
-    ("force-sensor-delay-s", po::value(&delay_)->default_value(0.0), "by which it is late against the pressures")
+    ("force-sensor-delay-s", po::value(&delay_)->default_value(0.0), "delay of its readings relative to the pressures")
     ("force-sensor-channels", po::value(&channels_)->multitoken(),
-     "its channels that count, of fx fy fz mx my mz in its own axes (all); others are taken for zero");
+     "its channels to use, of fx fy fz mx my mz in its own axes (all); the others count as zero");
 }
 
 ForceSensorMount ForceSensorOptions::mount() const {

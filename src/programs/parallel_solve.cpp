@@ -97,7 +97,7 @@ int main(int argc, char** argv) {
     ("inverse", "read platform poses and find the lengths of six rods")
     ("accuracy", po::value(&accuracy)->default_value(accuracy, "1e-9"), "relative, of pose and compliance")
     ("points", po::value(&points)->default_value(points),
-     "also so many points of every rod, evenly from base to platform")
+     "also this number of points of every rod, at equal distances from base to platform")
     ("scene", po::value(&scene_path)->required(), "scene file of kind parallel");
   po::positional_options_description positional;
   positional.add("scene", 1);

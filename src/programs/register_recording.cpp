@@ -93,7 +93,7 @@ int main(int argc, char** argv) {
     ("output", po::value(&output)->required(), "registration file to write")
     ("samples", po::value(&samples)->default_value(samples), "all (in motion too), or quasi_static (at rest only)")
     ("no-orientation", po::bool_switch(&no_orientation), "use positions only; the sensor's rotation is then their mean")
-    ("tracker-delay-s", po::value(&tracker_delay)->default_value(0.0), "by which the tracker is late against the pressures")
+    ("tracker-delay-s", po::value(&tracker_delay)->default_value(0.0), "delay of the tracker relative to the pressures")
     ("fit-delay", po::bool_switch(&fit_delay), "fit that delay too, to the samples in motion");
   reader.addOptionsTo(options);
   po::positional_options_description positional;

@@ -138,7 +138,7 @@ int main(int argc, char** argv) {
     ("help,h", "print this and exit")
     ("pressures", po::value(&a.pressures)->composing(),
      "FROM:TO:COUNT, gauge Pa, both ends included; once for all channels, or again for each")
-    ("random", po::value(&a.random), "so many random configurations within the ranges of --pressures instead")
+    ("random", po::value(&a.random), "this number of random configurations within the ranges of --pressures, instead of a grid")
     ("seed", po::value(&a.seed)->default_value(a.seed), "of the random numbers")
     ("channels", po::value(&a.channels),
      "channels that feed neighbouring chambers, 3 for the paper's pairs; default: one for each chamber")
