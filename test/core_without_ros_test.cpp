@@ -1,4 +1,4 @@
-// The core includes nothing of ROS: only the folders ros/ and programs/ may.
+// The core includes nothing of ROS: only the folders ros/, bags/ and programs/ may.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ bool isRosInclude(const std::string& line) {
 
 bool mayUseRos(const fs::path& path) {
   for (const fs::path& part : path)
-    if (part == "ros" || part == "programs") return true;
+    if (part == "ros" || part == "bags" || part == "programs") return true;
   return false;
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "live_stiffness/checks.h"
-#include "ros/bag_format.h"
+#include "bags/bag_format.h"
 
 namespace live_stiffness {
 

@@ -5,7 +5,7 @@
 
 #include "live_stiffness/checks.h"
 #ifdef LIVE_STIFFNESS_WITH_BAGS
-#include "ros/recorded_bag.h"
+#include "bags/recorded_bag.h"
 #endif
 
 namespace live_stiffness {

@@ -7,7 +7,7 @@
 #include "live_stiffness/estimation/recording.h"
 #include "live_stiffness/estimation/registration_fit.h"
 #include "live_stiffness/rod/scene_file.h"
-#include "ros/rig_bag.h"
+#include "bags/rig_bag.h"
 #include "live_stiffness/section/channel_map.h"
 #include "progress_bar.h"
 

@@ -9,7 +9,7 @@
 #include "bag_options.h"
 #include "part_file.h"
 #include "live_stiffness/rod/scene_file.h"
-#include "ros/bag_replay.h"
+#include "bags/bag_replay.h"
 #include "progress_bar.h"
 
 namespace po = boost::program_options;

@@ -5,7 +5,7 @@
 
 #include "rig/rig_model.h"
 #include "live_stiffness/rod/scene_file.h"
-#include "ros/rig_bag.h"
+#include "bags/rig_bag.h"
 #include "progress_bar.h"
 
 namespace po = boost::program_options;

@@ -78,3 +78,29 @@ grep -q chamber_pressures "$dir/log" || fail "the missing topic is not named: $(
 status=0
 "$programs/calibrate" "$scene" "$dir/own.bag" -p youngs_modulus_pa --pressure-unit atm >"$dir/log" 2>&1 || status=$?
 [ $status = 2 ] && grep -q "must be" "$dir/log" || fail "a unit that is not known: status $status, $(cat "$dir/log")"
+
+# A bag that was cut off, and one of a recorder that was killed: one line with file, reason and way out, which is one.
+/usr/bin/python3 - "$dir" <<'EOF'
+import os
+import sys
+import rosbag
+
+killed = rosbag.Bag(sys.argv[1] + "/killed.bag", "w", chunk_threshold=20000)
+with rosbag.Bag(sys.argv[1] + "/plain.bag") as plain:
+    for topic, message, time in plain.read_messages():
+        killed.write(topic, message, time)
+killed._file.flush()
+os._exit(0)
+EOF
+head -c 50000 "$dir/killed.bag" >"$dir/cut.bag"
+for bag in killed cut; do
+  for command in "replay $dir/$bag.bag --scene $scene" "register_recording $scene $dir/$bag.bag $dir/none.yaml"; do
+    status=0
+    $programs/$command >"$dir/log" 2>&1 || status=$?
+    [ $status = 2 ] || fail "$command: status $status instead of 2"
+    grep -c "bag $dir/$bag.bag: cannot be read: .*\`rosbag reindex $dir/$bag.bag\`" "$dir/log" | grep -qx 1 || fail "$command: $(cat "$dir/log")"
+    [ ! -e "$dir/$bag.estimates.bag" ] && [ ! -e "$dir/none.yaml" ] || fail "$command: something was written"
+  done
+  rosbag reindex "$dir/$bag.bag" >"$dir/log" 2>&1 || fail "rosbag reindex: $(cat "$dir/log")"
+  "$programs/replay" "$dir/$bag.bag" --scene "$scene" >"$dir/log" 2>&1 || fail "replay of a reindexed bag: $(cat "$dir/log")"
+done

@@ -1,7 +1,4 @@
-#include "ros/bag_replay.h"
-
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
+#include "bags/bag_replay.h"
 
 #include <algorithm>
 #include <chrono>
@@ -10,9 +7,8 @@
 
 #include "estimation/motion_history.h"
 #include "estimation/tip_force.h"
-#include "ros/bag_message.h"
-#include "ros/bag_structure.h"
-#include "ros/output_bag.h"
+#include "bags/bag_reader.h"
+#include "bags/output_bag.h"
 
 namespace live_stiffness {
 namespace {
@@ -59,7 +55,7 @@ class TopicWatch {
   std::vector<double> intervals_;
 };
 
-class Replay {
+class Replay : public BagListener {
  public:
   Replay(const std::string& out, const Scene& scene, const ModelOptions& model, const ReplayOptions& options)
       : options_(options),
@@ -76,21 +72,51 @@ class Replay {
     if (!channels.empty()) channel_map_ = ChannelMap(channels);
   }
 
-  void take(const rosbag::MessageInstance& message) {
-    recorded_ = message.getTime();
-    const std::string topic = withoutSlash(message.getTopic());
-    std::string fault;
-    if (topic == withoutSlash(options_.format.wrench_topic)) {
-      if (const auto wrench = readMessage<geometry_msgs::WrenchStamped>(message, fault)) onWrench(*wrench);
-      else wrenches_.reject(fault);
+  void onPressures(const Reading<Pressures>& reading, const ros::Time& recorded) override {
+    recorded_ = recorded;
+    is_stale_ = true;
+    const int channels = static_cast<int>(reading.value.size());
+    const ChannelMap* map = reading.ok() ? channelMap(channels) : nullptr;
+    if (reading.ok() && map == nullptr) {
+      pressures_.reject(channelFault(channels));
       return;
     }
-    const bool is_pressure = topic == withoutSlash(options_.format.pressure_topic);
-    if (!is_pressure && topic != withoutSlash(options_.format.pose_topic)) return;
-    const auto any = readMessage<topic_tools::ShapeShifter>(message, fault);
-    if (!any) (is_pressure ? pressures_ : poses_).reject(fault);
-    else if (is_pressure) onPressures(readPressures(*any, options_.format.pressures));
-    else onPose(readPose(*any, options_.format.position_unit));
+    const ros::Time stamp = stampOf(reading.stamp);
+    if (!pressures_.take(reading, stamp)) return;
+    is_stale_ = false;
+    pressure_stamp_ = stamp;
+    StiffnessEstimator::Outcome outcome = estimator_.setPressures(map->expand(reading.value), stamp.toSec());
+    const bool is_due = (stamp - estimate_stamp_).toSec() >= 1.0 / options_.heartbeat || stamp < estimate_stamp_;
+    if (outcome == StiffnessEstimator::Outcome::kUnchanged && is_due) outcome = estimator_.solve();
+    react(outcome);
+    if (estimator_.estimate() != nullptr && !is_stale_)
+      history_.add({stamp.toSec(), estimator_.pressures(), estimator_.estimate()->solution.X_BT});
+  }
+
+  void onPose(const Reading<TrackedPose>& reading, const ros::Time& recorded) override {
+    recorded_ = recorded;
+    const ros::Time stamp = stampOf(reading.stamp);
+    if (!poses_.take(reading, stamp) || is_stale_ || estimator_.estimate() == nullptr || history_.empty()) return;
+    const Pose measured = options_.registration.tipPose(reading.value.pose);
+    const double delay = options_.registration.tracker_delay;
+    const Pose predicted =
+        delay == 0.0 ? estimator_.estimate()->solution.X_BT : history_.at(stamp.toSec() - delay).X_BT;
+    const Twist residual = residualTwist(measured, predicted);
+    tracking_errors_.push_back(linear(residual).norm());
+    bag_.write("/stiffness_node/tracking_error", recorded_,
+               toTrackingError(measured, predicted, residual, stamp, options_.frames.base));
+  }
+
+  void onWrench(const Reading<geometry_msgs::WrenchStamped>& message, const ros::Time& recorded) override {
+    recorded_ = recorded;
+    if (!message.ok()) {
+      wrenches_.reject(message.fault);
+      return;
+    }
+    const Pose* X_BT = estimator_.estimate() ? &estimator_.estimate()->solution.X_BT : nullptr;
+    const Reading<Wrench> reading = readWrench(message.value, options_.frames, X_BT);
+    if (!wrenches_.take(reading, stampOf(reading.stamp))) return;
+    if (!is_stale_) react(estimator_.setTipWrench(reading.value));
   }
 
   // All has been replayed: gives the bag its name.
@@ -127,46 +153,6 @@ class Replay {
            "; see --scene and --channel-of-chamber";
   }
   ros::Time stampOf(const ros::Time& stamp) const { return stamp.isZero() ? recorded_ : stamp; }
-
-  void onPressures(const Reading<Pressures>& reading) {
-    is_stale_ = true;
-    const int channels = static_cast<int>(reading.value.size());
-    const ChannelMap* map = reading.ok() ? channelMap(channels) : nullptr;
-    if (reading.ok() && map == nullptr) {
-      pressures_.reject(channelFault(channels));
-      return;
-    }
-    const ros::Time stamp = stampOf(reading.stamp);
-    if (!pressures_.take(reading, stamp)) return;
-    is_stale_ = false;
-    pressure_stamp_ = stamp;
-    StiffnessEstimator::Outcome outcome = estimator_.setPressures(map->expand(reading.value), stamp.toSec());
-    const bool is_due = (stamp - estimate_stamp_).toSec() >= 1.0 / options_.heartbeat || stamp < estimate_stamp_;
-    if (outcome == StiffnessEstimator::Outcome::kUnchanged && is_due) outcome = estimator_.solve();
-    react(outcome);
-    if (estimator_.estimate() != nullptr && !is_stale_)
-      history_.add({stamp.toSec(), estimator_.pressures(), estimator_.estimate()->solution.X_BT});
-  }
-
-  void onWrench(const geometry_msgs::WrenchStamped& message) {
-    const Pose* X_BT = estimator_.estimate() ? &estimator_.estimate()->solution.X_BT : nullptr;
-    const Reading<Wrench> reading = readWrench(message, options_.frames, X_BT);
-    if (!wrenches_.take(reading, stampOf(reading.stamp))) return;
-    if (!is_stale_) react(estimator_.setTipWrench(reading.value));
-  }
-
-  void onPose(const Reading<TrackedPose>& reading) {
-    const ros::Time stamp = stampOf(reading.stamp);
-    if (!poses_.take(reading, stamp) || is_stale_ || estimator_.estimate() == nullptr || history_.empty()) return;
-    const Pose measured = options_.registration.tipPose(reading.value.pose);
-    const double delay = options_.registration.tracker_delay;
-    const Pose predicted =
-        delay == 0.0 ? estimator_.estimate()->solution.X_BT : history_.at(stamp.toSec() - delay).X_BT;
-    const Twist residual = residualTwist(measured, predicted);
-    tracking_errors_.push_back(linear(residual).norm());
-    bag_.write("/stiffness_node/tracking_error", recorded_,
-               toTrackingError(measured, predicted, residual, stamp, options_.frames.base));
-  }
 
   void react(StiffnessEstimator::Outcome outcome) {
     if (outcome == StiffnessEstimator::Outcome::kUnchanged) return;
@@ -208,33 +194,15 @@ ReplayReport replayBag(const std::string& bag, const std::string& out, const Sce
   std::error_code ignored;
   if (bag == out || std::filesystem::equivalent(bag, out, ignored))
     throw ConfigurationError("bag " + out, {"is the one to be read: give another to be written"});
-  ReplayReport report;
-  try {
-    checkBagStructure(bag);
-    rosbag::Bag in(bag, rosbag::bagmode::Read);
-    const std::string names[] = {withoutSlash(options.format.pressure_topic), withoutSlash(options.format.pose_topic),
-                                 withoutSlash(options.format.wrench_topic)};
-    rosbag::View view(in, [&](const rosbag::ConnectionInfo* connection) {
-      return std::count(std::begin(names), std::end(names), withoutSlash(connection->topic)) > 0;
-    });
-    Replay replay(out, scene, model, options);
-    const long total = view.size();
-    long done = 0;
-    for (const rosbag::MessageInstance& message : view) {
-      replay.take(message);
-      if (progress) progress(++done, total);
-    }
-    const ros::Time begin = total > 0 ? view.getBeginTime() : ros::Time();
-    report = replay.report(begin);
-    if (report.pressures.usable > 0) replay.finish();
-    if (total > 0) report.duration = (view.getEndTime() - begin).toSec();
-  } catch (const rosbag::BagException& error) {
-    throw ConfigurationError("bag " + bag, {std::string("cannot be read: ") + error.what()});
-  }
+  Replay replay(out, scene, model, options);
+  const BagSpan span = readBag(bag, options.format, replay, progress);
+  ReplayReport report = replay.report(span.begin);
+  report.duration = (span.end - span.begin).toSec();
   if (report.pressures.usable == 0)
     throw ConfigurationError("bag " + bag, {"no usable pressures on " + options.format.pressure_topic +
                                             (report.pressures.unusable > 0 ? ": " + report.pressures.first_fault
                                                                            : "; see rosbag info, and --pressures")});
+  replay.finish();
   report.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
 }

@@ -7,8 +7,8 @@
 
 #include "live_stiffness/estimation/registration.h"
 #include "live_stiffness/estimation/stiffness_estimator.h"
-#include "ros/bag_format.h"
-#include "ros/replay_report.h"
+#include "bags/bag_format.h"
+#include "bags/replay_report.h"
 #include "live_stiffness/section/channel_map.h"
 
 namespace live_stiffness {
@@ -25,8 +25,9 @@ struct ReplayOptions {
 
 // Reads `bag` in the order of recording and writes to `out` what the node would have published on
 // /stiffness_node/estimate, /tip_pose and /tracking_error. `progress` is told messages done and in all. Messages that
-// cannot be used are counted and left out. Throws ConfigurationError when a bag cannot be read or written, is the same as
-// the other, the scene or options are bad, or no usable pressures are in it; then no file is left under the name of `out`.
+// cannot be used are counted and left out. Throws as readBag() does when `bag` cannot be read, and ConfigurationError when
+// `out` cannot be written or is the same bag, the scene or options are bad, or no usable pressures are in it; then no file
+// is left under the name of `out`.
 ReplayReport replayBag(const std::string& bag, const std::string& out, const Scene& scene, const ModelOptions& model,
                        const ReplayOptions& options, const std::function<void(long, long)>& progress = {});
 

@@ -1,4 +1,4 @@
-#include "ros/output_bag.h"
+#include "bags/output_bag.h"
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include "ros/replay_report.h"
+#include "bags/replay_report.h"
 
 #include <sstream>
 

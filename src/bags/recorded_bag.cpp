@@ -1,82 +1,54 @@
-#include "ros/recorded_bag.h"
-
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
+#include "bags/recorded_bag.h"
 
 #include <algorithm>
 #include <map>
 #include <optional>
 
+#include "bags/bag_reader.h"
 #include "live_stiffness/checks.h"
-#include "ros/bag_message.h"
-#include "ros/bag_structure.h"
 
 namespace live_stiffness {
 namespace {
 
-// Messages of the three topics by their stamps.
-struct Tracks {
+// Values of the three topics by their stamps.
+class Tracks : public BagListener {
+ public:
+  void onPressures(const Reading<Pressures>& reading, const ros::Time& recorded) override {
+    if (reading.ok() && reading.value.size() == 0) leaveOut("no pressures in the message");
+    else keep(reading, reading.value, recorded, pressures);
+  }
+  void onPose(const Reading<TrackedPose>& reading, const ros::Time& recorded) override {
+    keep(reading, reading.value.pose, recorded, poses);
+  }
+  void onWrench(const Reading<geometry_msgs::WrenchStamped>& message, const ros::Time& recorded) override {
+    if (!message.ok()) return leaveOut(message.fault);
+    const FrameNames own{withoutSlash(message.value.header.frame_id), ""};  // a recording keeps the sensor's axes
+    const Reading<Wrench> reading = readWrench(message.value, own, nullptr);
+    keep(reading, reading.value, recorded, wrenches);
+  }
+
   std::map<double, Pressures> pressures;
   std::map<double, Pose> poses;
   std::map<double, Wrench> wrenches;
-  int unreadable = 0;
-  std::string fault;  // of the first one
-};
+  int unusable = 0;
+  std::string fault;  // of the first unusable one
 
-void leaveOut(const std::string& fault, Tracks& tracks) {
-  if (tracks.unreadable++ == 0) tracks.fault = fault;
-}
-
-template <class Value, class Result>
-void keep(const Reading<Value>& reading, const ros::Time& recorded, const Result& result,
-          std::map<double, Result>& track, Tracks& tracks) {
-  if (reading.ok()) {
-    track[(reading.stamp.isZero() ? recorded : reading.stamp).toSec()] = result;
-    return;
+ private:
+  void leaveOut(const std::string& why) {
+    if (unusable++ == 0) fault = why;
   }
-  leaveOut(reading.fault, tracks);
-}
+  template <class Value, class Result>
+  void keep(const Reading<Value>& reading, const Result& result, const ros::Time& recorded, std::map<double, Result>& track) {
+    if (!reading.ok()) return leaveOut(reading.fault);
+    track[(reading.stamp.isZero() ? recorded : reading.stamp).toSec()] = result;
+  }
+};
 
 template <class Value>
 std::optional<Value> newest(const std::map<double, Value>& track, double time) {
   auto after = track.upper_bound(time);
   if (after == track.begin()) return std::nullopt;
   return std::prev(after)->second;
-}
-
-Tracks readTracks(const std::string& path, const BagFormat& format) {
-  Tracks tracks;
-  checkBagStructure(path);
-  rosbag::Bag bag(path, rosbag::bagmode::Read);
-  for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
-    const std::string topic = withoutSlash(message.getTopic());
-    std::string fault;
-    if (topic == withoutSlash(format.wrench_topic)) {
-      const auto wrench = readMessage<geometry_msgs::WrenchStamped>(message, fault);
-      if (!wrench) {
-        leaveOut(fault, tracks);
-        continue;
-      }
-      const FrameNames own{withoutSlash(wrench->header.frame_id), ""};  // a recording keeps the sensor's axes
-      const Reading<Wrench> reading = readWrench(*wrench, own, nullptr);
-      keep(reading, message.getTime(), reading.value, tracks.wrenches, tracks);
-      continue;
-    }
-    const bool is_pressure = topic == withoutSlash(format.pressure_topic);
-    if (!is_pressure && topic != withoutSlash(format.pose_topic)) continue;
-    const auto any = readMessage<topic_tools::ShapeShifter>(message, fault);
-    if (!any) {
-      leaveOut(fault, tracks);
-    } else if (is_pressure) {
-      const Reading<Pressures> reading = readPressures(*any, format.pressures);
-      if (reading.ok() && reading.value.size() == 0) leaveOut("no pressures in the message", tracks);
-      else keep(reading, message.getTime(), reading.value, tracks.pressures, tracks);
-    } else {
-      const Reading<TrackedPose> reading = readPose(*any, format.position_unit);
-      keep(reading, message.getTime(), reading.value.pose, tracks.poses, tracks);
-    }
-  }
-  return tracks;
 }
 
 // What numbers that a robot cannot have look like. Faults of units leave a fit that fails far from the reason.
@@ -98,11 +70,7 @@ void warnOfUnits(Recording& recording) {
 
 Recording loadRecordedBag(const std::string& path, const BagFormat& format) {
   Tracks tracks;
-  try {
-    tracks = readTracks(path, format);
-  } catch (const rosbag::BagException& error) {
-    throw ConfigurationError("bag " + path, {std::string("cannot be read: ") + error.what()});
-  }
+  readBag(path, format, tracks);
   Recording recording;
   recording.name = path;
   int early = 0;
@@ -123,8 +91,8 @@ Recording loadRecordedBag(const std::string& path, const BagFormat& format) {
     sample.tip_wrench = newest(tracks.wrenches, time);
     recording.samples.push_back(std::move(sample));
   }
-  if (tracks.unreadable > 0)
-    recording.warnings.push_back(std::to_string(tracks.unreadable) + " messages left out, the first because: " +
+  if (tracks.unusable > 0)
+    recording.warnings.push_back(std::to_string(tracks.unusable) + " messages left out, the first because: " +
                                  tracks.fault);
   if (early > 0)
     recording.warnings.push_back(std::to_string(early) + " poses left out: no pressures before them, or of another "
@@ -132,7 +100,7 @@ Recording loadRecordedBag(const std::string& path, const BagFormat& format) {
   if (recording.samples.empty())
     throw ConfigurationError(
         "bag " + path, {"no pose on " + format.pose_topic + " with pressures on " + format.pressure_topic + " before it" +
-                        (tracks.unreadable > 0 ? ": " + tracks.fault : "; see rosbag info, and --pressures and --pose")});
+                        (tracks.unusable > 0 ? ": " + tracks.fault : "; see rosbag info, and --pressures and --pose")});
   warnOfUnits(recording);
   return recording;
 }

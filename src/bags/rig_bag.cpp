@@ -1,4 +1,4 @@
-#include "ros/rig_bag.h"
+#include "bags/rig_bag.h"
 
 namespace live_stiffness {
 

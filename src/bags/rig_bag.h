@@ -4,7 +4,7 @@
 #include <string>
 
 #include "ros/conversions.h"
-#include "ros/output_bag.h"
+#include "bags/output_bag.h"
 
 namespace live_stiffness {
 

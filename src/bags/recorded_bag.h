@@ -4,14 +4,14 @@
 #include <string>
 
 #include "live_stiffness/estimation/recording.h"
-#include "ros/bag_format.h"
+#include "bags/bag_format.h"
 
 namespace live_stiffness {
 
 // One sample per valid pose, with the newest pressures and wrench of the force sensor before it, by their stamps (time of
-// recording where they have none). Poses before the first pressures, and messages that cannot be read, are left out with
-// a warning; units that no robot has are warned of, too. Throws ConfigurationError when the file cannot be read or no
-// sample is left.
+// recording where they have none). Poses before the first pressures, and messages that cannot be used, are left out with
+// a warning; units that no robot has are warned of, too. Throws as readBag() does when the file cannot be read, and
+// ConfigurationError when no sample is left.
 Recording loadRecordedBag(const std::string& path, const BagFormat& format = {});
 
 }  // namespace live_stiffness
