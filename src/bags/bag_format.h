@@ -1,5 +1,5 @@
 #pragma once
-// Where in a bag the pressures, the tracker and the tip wrench are, and in which units.
+// Topics and units of pressures, tracker and tip wrench in a bag.
 
 #include <string>
 
@@ -10,7 +10,7 @@ namespace live_stiffness {
 // Topics with or without a leading slash. By default what recording_to_bag and simulate_bag write.
 struct BagFormat {
   std::string pressure_topic = "chamber_pressures", pose_topic = "aurora_pose";
-  std::string wrench_topic = "tip_force_torque";  // of the force sensor; replay takes a known wrench instead: tip_wrench
+  std::string wrench_topic = "tip_force_torque";  // of the force sensor; replay reads a known wrench from tip_wrench instead
   PressureFormat pressures;
   double position_unit = 1.0;  // m per unit of the tracker's positions
 };

@@ -41,7 +41,7 @@ BagSpan readBag(const std::string& path, const BagFormat& format, BagListener& l
       if (topic == wrenches) {
         listener.onWrench(wrenchOf(message), message.getTime());
       } else {
-        const auto any = message.instantiate<topic_tools::ShapeShifter>();  // of whatever type it is
+        const auto any = message.instantiate<topic_tools::ShapeShifter>();  // any type
         if (topic == pressures) listener.onPressures(readPressures(*any, format.pressures), message.getTime());
         else listener.onPose(readPose(*any, format.position_unit), message.getTime());
       }
@@ -49,7 +49,7 @@ BagSpan readBag(const std::string& path, const BagFormat& format, BagListener& l
     }
     return total > 0 ? BagSpan{view.getBeginTime(), view.getEndTime()} : BagSpan{};
   } catch (const ConfigurationError&) {
-    throw;  // the listener's
+    throw;  // from the listener
   } catch (const std::exception& error) {
     throw std::runtime_error("bag " + path + ": cannot be read: " + error.what() + "; if it was cut off, `rosbag reindex " +
                              path + "` keeps what is whole");

@@ -119,7 +119,7 @@ class Replay : public BagListener {
     if (!is_stale_) react(estimator_.setTipWrench(reading.value));
   }
 
-  // All has been replayed: gives the bag its name.
+  // Call at the end: closes the bag and gives it its name.
   void finish() { bag_.finish(); }
 
   ReplayReport report(const ros::Time& begin) {

@@ -17,8 +17,8 @@ void OutputBag::finish() {
   part_.finish();
 }
 
-// Closes a bag that nobody is to see. Where the disk is full closing throws, and would do so again in rosbag's
-// destructor, which ends the program without a word: such a bag is kept for ever instead.
+// Closes a bag that is not needed. If the disk is full, closing throws; it would throw again in rosbag's destructor, which
+// would end the program. So such a bag is never destroyed.
 void OutputBag::abandon() {
   if (bag_ == nullptr) return;
   try {

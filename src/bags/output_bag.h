@@ -1,5 +1,5 @@
 #pragma once
-// A bag that is there whole or not at all, whatever happens to the disk.
+// Writes a bag completely or not at all, even if the disk becomes full.
 
 #include <rosbag/bag.h>
 
@@ -12,17 +12,17 @@ namespace live_stiffness {
 
 class OutputBag {
  public:
-  // Creates the file beside its place (see PartFile). This and all that follows throws ConfigurationError with path and
-  // reason on failure.
+  // Creates the file under a temporary name (see PartFile). All members throw ConfigurationError with path and reason on
+  // failure.
   explicit OutputBag(const std::string& path);
-  // Without finish() nothing is left.
+  // Without finish() the file is removed.
   ~OutputBag();
 
   template <class Message>
   void write(const std::string& topic, const ros::Time& time, const Message& message) {
     guard([&] { bag_->write(topic, time, message); });
   }
-  // All has been written: closes the bag and gives it its name.
+  // Call when all has been written: closes the bag and gives it its name.
   void finish();
 
  private:

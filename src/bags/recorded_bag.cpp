@@ -51,7 +51,7 @@ std::optional<Value> newest(const std::map<double, Value>& track, double time) {
   return std::prev(after)->second;
 }
 
-// What numbers that a robot cannot have look like. Faults of units leave a fit that fails far from the reason.
+// Detects numbers that no robot has, since wrong units would otherwise only show as a strange failure of a fit.
 void warnOfUnits(Recording& recording) {
   constexpr double kFarthest = 5.0;       // m, that a tip moves
   constexpr double kLeastPressure = 1e3;  // Pa, of a session in which the robot moves

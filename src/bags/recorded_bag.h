@@ -1,5 +1,5 @@
 #pragma once
-// Bags as recordings: what RigBag writes, or a driver of its kind.
+// Reads bags as recordings: those of RigBag, or of similar drivers.
 
 #include <string>
 
@@ -9,9 +9,9 @@
 namespace live_stiffness {
 
 // One sample per valid pose, with the newest pressures and wrench of the force sensor before it, by their stamps (time of
-// recording where they have none). Poses before the first pressures, and messages that cannot be used, are left out with
-// a warning; units that no robot has are warned of, too. Throws as readBag() does when the file cannot be read, and
-// ConfigurationError when no sample is left.
+// recording where they have none). Poses before the first pressures, and messages that cannot be used, are left out with a
+// warning; implausible numbers, which point to wrong units, give a warning, too. Throws as readBag() does when the file
+// cannot be read, and ConfigurationError when no sample is left.
 Recording loadRecordedBag(const std::string& path, const BagFormat& format = {});
 
 }  // namespace live_stiffness

@@ -1,5 +1,5 @@
 #pragma once
-// What a replay of a bag tells about it.
+// Statistics of a replayed bag.
 
 #include <string>
 
@@ -7,13 +7,13 @@
 
 namespace live_stiffness {
 
-// How well a topic kept time.
+// Statistics of a topic.
 struct TopicReport {
   std::string name;
   long usable = 0, unusable = 0;
-  long backward = 0;         // usable ones stamped before the one before
+  long backward = 0;         // usable ones whose stamp is before the previous one
   std::string first_fault;   // of the unusable ones
-  double rate = 0.0;         // usable ones in the median interval, Hz; 0: fewer than two
+  double rate = 0.0;         // inverse of the median interval between usable ones, Hz; 0: fewer than two
   double longest_gap = 0.0;  // s
   double gap_start = 0.0;    // from the bag's begin, s
 };
@@ -26,9 +26,9 @@ struct ReplayReport {
   double update_median = 0.0, update_p99 = 0.0;        // time of a solve, s
   double numerical_error_median = 0.0, numerical_error_max = 0.0;  // estimated, relative
   ErrorSummary tracking_error;      // measured tip against the newest estimate, m
-  double wall_time = 0.0;           // that the replay took, s
+  double wall_time = 0.0;           // duration of the replay, s
 
-  // As Markdown, for people.
+  // As Markdown.
   std::string text(const std::string& bag, double accuracy) const;
 };
 

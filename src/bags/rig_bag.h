@@ -1,5 +1,5 @@
 #pragma once
-// Writes what a rig publishes into a bag: chamber_pressures, aurora_pose and, if there is one, its force sensor.
+// Writes the topics of a rig to a bag: chamber_pressures, aurora_pose and, if there is one, its force sensor.
 
 #include <string>
 
@@ -20,7 +20,7 @@ class RigBag {
   // A wrench in the force sensor's own axes, on tip_force_torque with frame_id kForceSensorFrame. Not on tip_wrench:
   // the node would take it as the wrench at T, and the sensor's axes and sign must be known for that.
   void writeForceTorque(const Wrench& wrench, const ros::Time& stamp);
-  // All has been written. Without it no file is left.
+  // Call when all has been written. Without it there is no file.
   void finish() { bag_.finish(); }
 
  private:
@@ -28,7 +28,7 @@ class RigBag {
   std::string tracker_frame_;
 };
 
-// Stamps of a bag begin here: ROS time must not be zero.
+// First stamp of a bag; ROS time must not be zero.
 inline ros::Time bagTime(double seconds) { return ros::Time(1000.0 + seconds); }
 
 }  // namespace live_stiffness

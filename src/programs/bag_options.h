@@ -1,5 +1,5 @@
 #pragma once
-// Command line options that say where in a bag what is, and in which units.
+// Command line options for the topics and units of a bag.
 
 #include <boost/program_options.hpp>
 #include <string>
@@ -11,10 +11,10 @@ namespace live_stiffness {
 
 class BagOptions {
  public:
-  // format: what holds without options.
+  // format: the defaults.
   explicit BagOptions(const BagFormat& format = {}) : format_(format) {}
   void addTo(boost::program_options::options_description& options);
-  // Adds every option that is not understood to the faults.
+  // Adds a fault for every option with an illegal value.
   BagFormat format(FaultList& faults) const;
 
  private:

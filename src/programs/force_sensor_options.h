@@ -1,5 +1,5 @@
 #pragma once
-// Command line options that say how the force sensor of a recording sits on the tip.
+// Command line options for the mount of a recording's force sensor on the tip.
 
 #include <boost/program_options.hpp>
 #include <string>
@@ -14,7 +14,7 @@ class ForceSensorOptions {
   void addTo(boost::program_options::options_description& options);
   // Throws ConfigurationError with every value that is out of range.
   ForceSensorMount mount() const;
-  // What a calibration found, as such options.
+  // A mount as such options, for example the result of a calibration.
   static std::string text(const ForceSensorMount& mount);
 
  private:

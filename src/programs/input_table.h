@@ -1,5 +1,5 @@
 #pragma once
-// The CSV that the solve programs read: inputs of the robot and optionally a wrench, a row at a time.
+// The CSV that the solve programs read, row by row: inputs of the robot and optionally a wrench.
 
 #include <istream>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-// What stiffness_map is told, and how it reads lists of numbers.
+// Arguments of stiffness_map, and how it reads lists of numbers.
 
 #include <cstdint>
 #include <string>
@@ -21,7 +21,7 @@ struct MapArguments {
   int channels = 0, threads = 0, starts = 24;
 };
 
-// Numbers between separators; false unless all of the text is.
+// Numbers between separators; false if any part of the text is not a number.
 bool readNumbers(const std::string& text, char separator, std::vector<double>& numbers);
 
 // Of --pressures; faults are added.

@@ -1,5 +1,5 @@
 #pragma once
-// What stiffness_map writes: a CSV, and optionally the same as a NumPy array.
+// The output of stiffness_map: a CSV, and optionally the same as a NumPy array.
 
 #include <cstdio>
 #include <memory>

@@ -1,5 +1,5 @@
 #pragma once
-// A progress bar on standard error: redrawn in place on a terminal, a line every tenth of the way in a log.
+// A progress bar on standard error: redrawn in place on a terminal, one line for each tenth in a log.
 
 #include <unistd.h>
 
@@ -13,7 +13,7 @@ class ProgressBar {
  public:
   ProgressBar(std::string title, long total) : title_(std::move(title)), total_(std::max(1L, total)) {}
 
-  // `done` of `total` pieces are finished.
+  // Call when `done` of `total` parts are finished.
   void update(long done) {
     const int percent = static_cast<int>(100.0 * std::min(done, total_) / total_);
     const bool on_terminal = isatty(STDERR_FILENO);

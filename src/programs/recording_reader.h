@@ -1,5 +1,5 @@
 #pragma once
-// Recordings of either kind, as programs take them.
+// Reads recordings for programs, CSV or bags.
 
 #include <boost/program_options.hpp>
 #include <string>
@@ -13,10 +13,10 @@ namespace live_stiffness {
 
 class RecordingReader {
  public:
-  // Those that say what is where in a bag, where the program was built with ROS.
+  // Options for bags, if the program was built with ROS.
   void addOptionsTo(boost::program_options::options_description& options);
-  // A CSV recording, or a bag (*.bag) where the program was built with ROS. Prints the recording's warnings on standard
-  // error. Throws ConfigurationError when it cannot be read, or an option is not understood.
+  // A CSV recording, or a bag (*.bag) if the program was built with ROS. Prints the recording's warnings on standard
+  // error. Throws ConfigurationError if it cannot be read, or an option has an illegal value.
   Recording load(const std::string& path) const;
 
 #ifdef LIVE_STIFFNESS_WITH_BAGS

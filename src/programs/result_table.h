@@ -11,16 +11,16 @@ namespace live_stiffness {
 
 struct ResultRow {
   SolveStatus status;
-  std::string fault;  // in words, unless ok
+  std::string fault;  // the reason as text, unless ok
   int iterations = 0;
   double solve_us = 0.0;
   Pose X;  // of the point that compliances are about
   Matrix6 compliance = Matrix6::Zero(), material_compliance = Matrix6::Zero();
-  std::vector<double> more;  // one for each of the further columns
+  std::vector<double> more;  // one number for each of the further columns
 };
 
-// Reads and solves all rows; writes the table to standard output, faults with their line to standard error, and there
-// also the progress if only a person sees it. Rows that fail keep their columns, empty. Returns how many failed.
+// Reads and solves all rows. Writes the table to standard output, and faults with their line to standard error; there also
+// the progress, if only that is a terminal. Rows that fail have empty columns. Returns the number of failed rows.
 long solveTable(InputTable& table, const std::vector<std::string>& further_columns,
                 const std::function<ResultRow(const InputRow&)>& solve);
 
