@@ -59,6 +59,12 @@ std::string readTextFile(const std::string& subject, const std::string& path) {
   return text.str();
 }
 
+std::string oneLine(const std::vector<std::string>& texts) {
+  std::string line;
+  for (const std::string& text : texts) line += (line.empty() ? "" : "; ") + text;
+  return line;
+}
+
 std::string numberText(double value) {
   std::ostringstream text;
   text << value;

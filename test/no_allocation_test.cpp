@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdlib>
 
+#include "live_stiffness/estimation/stiffness_estimator.h"
 #include "parallel/parallel_cases.h"
 #include "support/random_source.h"
 #include "support/scenes.h"
@@ -148,6 +149,23 @@ TEST_F(NoAllocation, InAPlanOfStations) {
     model.solve(pressures, Wrench::Zero(), workspace);
     model.stations(workspace, 1, plan, stations);
     EXPECT_EQ(g_allocations, 0);
+  }
+}
+
+// With stations, shape and markers' data; the first two make room for estimate and candidate.
+TEST_F(NoAllocation, InAnUpdateOfTheEstimatorAfterTheSecond) {
+  StiffnessEstimator estimator(paperScene(2), {}, {});
+  RandomSource random(72);
+  for (int i = 0; i < 20; ++i) {
+    const Pressures pressures = random.pairs(12, -0.3e5, 1e5);
+    const Wrench wrench = random.wrench(0.05, 1e-3);
+    const Counting counting;
+    const bool solved = estimator.setPressures(pressures, 0.01 * i) == StiffnessEstimator::Outcome::kSolved;
+    const bool pushed = estimator.setTipWrench(wrench) == StiffnessEstimator::Outcome::kSolved;
+    ASSERT_TRUE(solved && pushed) << i;
+    if (i >= 1) {
+      ASSERT_EQ(g_allocations, 0) << i;
+    }
   }
 }
 

@@ -53,6 +53,9 @@ class FaultList {
 // The text of a file. Throws ConfigurationError about `subject` (such as "scene") when it cannot be read.
 std::string readTextFile(const std::string& subject, const std::string& path);
 
+// All texts in one line, with "; " between them.
+std::string oneLine(const std::vector<std::string>& texts);
+
 // A number as people write it: shortest text that reads back to the same value up to 6 digits.
 std::string numberText(double value);
 

@@ -11,13 +11,13 @@
 namespace live_stiffness {
 namespace {
 
-Reading<geometry_msgs::WrenchStamped> wrenchOf(const rosbag::MessageInstance& message) {
-  Reading<geometry_msgs::WrenchStamped> reading;
+Parsed<geometry_msgs::WrenchStamped> wrenchOf(const rosbag::MessageInstance& message) {
+  Parsed<geometry_msgs::WrenchStamped> reading;
   if (const auto wrench = message.instantiate<geometry_msgs::WrenchStamped>()) {
     reading.stamp = wrench->header.stamp;
     reading.value = *wrench;
   } else {
-    reading.fault = "message type " + message.getDataType() + ": must be geometry_msgs/WrenchStamped";
+    reading.error = "message type " + message.getDataType() + ": must be geometry_msgs/WrenchStamped";
   }
   return reading;
 }

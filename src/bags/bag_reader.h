@@ -13,10 +13,10 @@ namespace live_stiffness {
 class BagListener {
  public:
   virtual ~BagListener() = default;
-  virtual void onPressures(const Reading<Pressures>& reading, const ros::Time& recorded) = 0;
-  virtual void onPose(const Reading<TrackedPose>& reading, const ros::Time& recorded) = 0;
+  virtual void onPressures(const Parsed<Pressures>& reading, const ros::Time& recorded) = 0;
+  virtual void onPose(const Parsed<TrackedPose>& reading, const ros::Time& recorded) = 0;
   // The numbers of the message, in its axes; the listener must know these.
-  virtual void onWrench(const Reading<geometry_msgs::WrenchStamped>& reading, const ros::Time& recorded) = 0;
+  virtual void onWrench(const Parsed<geometry_msgs::WrenchStamped>& reading, const ros::Time& recorded) = 0;
 };
 
 // When the messages of these topics were written to the bag; both zero when there are none.

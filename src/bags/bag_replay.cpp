@@ -27,8 +27,8 @@ class TopicWatch {
 
   // True if the reading can be used.
   template <class Value>
-  bool take(const Reading<Value>& reading, const ros::Time& stamp) {
-    if (!reading.ok()) return reject(reading.fault);
+  bool take(const Parsed<Value>& reading, const ros::Time& stamp) {
+    if (!reading.ok()) return reject(reading.error);
     if (report_.usable++ > 0) {
       const double interval = (stamp - last_).toSec();
       report_.backward += interval < 0.0;
@@ -72,7 +72,7 @@ class Replay : public BagListener {
     if (!channels.empty()) channel_map_ = ChannelMap(channels);
   }
 
-  void onPressures(const Reading<Pressures>& reading, const ros::Time& recorded) override {
+  void onPressures(const Parsed<Pressures>& reading, const ros::Time& recorded) override {
     recorded_ = recorded;
     is_stale_ = true;
     const int channels = static_cast<int>(reading.value.size());
@@ -93,7 +93,7 @@ class Replay : public BagListener {
       history_.add({stamp.toSec(), estimator_.pressures(), estimator_.estimate()->solution.X_BT});
   }
 
-  void onPose(const Reading<TrackedPose>& reading, const ros::Time& recorded) override {
+  void onPose(const Parsed<TrackedPose>& reading, const ros::Time& recorded) override {
     recorded_ = recorded;
     const ros::Time stamp = stampOf(reading.stamp);
     if (!poses_.take(reading, stamp) || is_stale_ || estimator_.estimate() == nullptr || history_.empty()) return;
@@ -107,14 +107,14 @@ class Replay : public BagListener {
                toTrackingError(measured, predicted, residual, stamp, options_.frames.base));
   }
 
-  void onWrench(const Reading<geometry_msgs::WrenchStamped>& message, const ros::Time& recorded) override {
+  void onWrench(const Parsed<geometry_msgs::WrenchStamped>& message, const ros::Time& recorded) override {
     recorded_ = recorded;
     if (!message.ok()) {
-      wrenches_.reject(message.fault);
+      wrenches_.reject(message.error);
       return;
     }
     const Pose* X_BT = estimator_.estimate() ? &estimator_.estimate()->solution.X_BT : nullptr;
-    const Reading<Wrench> reading = readWrench(message.value, options_.frames, X_BT);
+    const Parsed<Wrench> reading = readWrench(message.value, options_.frames, X_BT);
     if (!wrenches_.take(reading, stampOf(reading.stamp))) return;
     if (!is_stale_) react(estimator_.setTipWrench(reading.value));
   }
@@ -166,7 +166,7 @@ class Replay : public BagListener {
     }
     if (estimator_.estimate() == nullptr) return;
     StiffnessEstimate message = toEstimate(*estimator_.estimate(), estimate_stamp_, options_.frames.base);
-    setStanding(estimator_.status().code, estimator_.statusText(), false, 0.0, "pressures", message);
+    setStatus(estimator_.status().code, estimator_.statusText(), false, 0.0, "pressures", message);
     bag_.write("/stiffness_node/estimate", recorded_, message);
     if (!message.stale)
       bag_.write("/stiffness_node/tip_pose", recorded_,

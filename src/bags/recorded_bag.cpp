@@ -13,17 +13,17 @@ namespace {
 // Values of the three topics by their stamps.
 class Tracks : public BagListener {
  public:
-  void onPressures(const Reading<Pressures>& reading, const ros::Time& recorded) override {
+  void onPressures(const Parsed<Pressures>& reading, const ros::Time& recorded) override {
     if (reading.ok() && reading.value.size() == 0) leaveOut("no pressures in the message");
     else keep(reading, reading.value, recorded, pressures);
   }
-  void onPose(const Reading<TrackedPose>& reading, const ros::Time& recorded) override {
+  void onPose(const Parsed<TrackedPose>& reading, const ros::Time& recorded) override {
     keep(reading, reading.value.pose, recorded, poses);
   }
-  void onWrench(const Reading<geometry_msgs::WrenchStamped>& message, const ros::Time& recorded) override {
-    if (!message.ok()) return leaveOut(message.fault);
+  void onWrench(const Parsed<geometry_msgs::WrenchStamped>& message, const ros::Time& recorded) override {
+    if (!message.ok()) return leaveOut(message.error);
     const FrameNames own{withoutSlash(message.value.header.frame_id), ""};  // a recording keeps the sensor's axes
-    const Reading<Wrench> reading = readWrench(message.value, own, nullptr);
+    const Parsed<Wrench> reading = readWrench(message.value, own, nullptr);
     keep(reading, reading.value, recorded, wrenches);
   }
 
@@ -38,8 +38,8 @@ class Tracks : public BagListener {
     if (unusable++ == 0) fault = why;
   }
   template <class Value, class Result>
-  void keep(const Reading<Value>& reading, const Result& result, const ros::Time& recorded, std::map<double, Result>& track) {
-    if (!reading.ok()) return leaveOut(reading.fault);
+  void keep(const Parsed<Value>& reading, const Result& result, const ros::Time& recorded, std::map<double, Result>& track) {
+    if (!reading.ok()) return leaveOut(reading.error);
     track[(reading.stamp.isZero() ? recorded : reading.stamp).toSec()] = result;
   }
 };

@@ -15,20 +15,26 @@ EstimatorOptions checked(EstimatorOptions options) {
   return options;
 }
 
+std::vector<double> evenFractions(int count) {
+  std::vector<double> fractions;
+  for (int i = 0; i <= count; ++i) fractions.push_back(static_cast<double>(i) / count);
+  return fractions;
+}
+
 }  // namespace
 
 std::vector<Station> sampleBackbone(const StiffnessModel& model, const StiffnessWorkspace& workspace,
                                     int per_segment) {
   std::vector<Station> samples;
   for (int segment = 0; segment < model.scene().segmentCount(); ++segment)
-    for (int i = 0; i <= per_segment; ++i)
-      samples.push_back(model.station(workspace, segment, static_cast<double>(i) / per_segment));
+    for (double fraction : evenFractions(per_segment)) samples.push_back(model.station(workspace, segment, fraction));
   return samples;
 }
 
 StiffnessEstimator::StiffnessEstimator(Scene scene, const ModelOptions& model_options, EstimatorOptions options)
     : model_(std::move(scene), model_options), options_(checked(std::move(options))),
       workspace_(model_.makeWorkspace()), plans_(model_.scene().segmentCount(), StationPlan(options_.fractions)),
+      shape_plans_(model_.scene().segmentCount(), StationPlan(evenFractions(kShapeSections))),
       creep_(model_.scene()) {
   // In a workspace of its own: what comes first is still solved from rest.
   StiffnessWorkspace workspace = model_.makeWorkspace();
@@ -82,22 +88,21 @@ StiffnessEstimator::Outcome StiffnessEstimator::solve() {
   candidate_.effective = newest_effective_;
   candidate_.tip_wrench = newest_wrench_;
   candidate_.tip_ellipsoid = ellipsoidOf(candidate_.solution.compliance.topLeftCorner<3, 3>());
-  const int segments = model_.scene().segmentCount();
-  const size_t per_segment = options_.fractions.size();
-  candidate_.stations.resize(segments * per_segment);
+  readStations(plans_, candidate_.stations);
+  readStations(shape_plans_, candidate_.shape);
   candidate_.stretch.clear();
-  for (int segment = 0; segment < segments; ++segment) {
-    model_.stations(workspace_, segment, plans_[segment], candidate_.stations.data() + segment * per_segment);
+  for (int segment = 0; segment < model_.scene().segmentCount(); ++segment)
     candidate_.stretch.push_back(workspace_.backbone().rest[segment].stretch);
-  }
   std::swap(estimate_, candidate_);
   has_estimate_ = true;
   return Outcome::kSolved;
 }
 
-std::vector<Station> StiffnessEstimator::sampleBackbone(int per_segment) const {
-  if (!has_estimate_ || !status_.ok()) return {};
-  return live_stiffness::sampleBackbone(model_, workspace_, per_segment);
+void StiffnessEstimator::readStations(std::vector<StationPlan>& plans, std::vector<Station>& stations) {
+  const int per_segment = plans.front().size();
+  stations.resize(plans.size() * per_segment);
+  for (size_t segment = 0; segment < plans.size(); ++segment)
+    model_.stations(workspace_, static_cast<int>(segment), plans[segment], stations.data() + segment * per_segment);
 }
 
 }  // namespace live_stiffness

@@ -1,21 +1,169 @@
 // parallel_node: the node that watches a parallel continuum robot; config/parallel_node.yaml has its parameters.
+//
+// Rod lengths in; pose and compliance of the platform, tf, markers and diagnostics out. Two threads: one takes inputs and
+// publishes estimates; markers and diagnostics, on the global callback queue, lock its state only while they copy it.
 
-#include <ros/ros.h>
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <live_stiffness/PlatformEstimate.h>
+#include <ros/callback_queue.h>
 
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "programs/parallel_markers.h"
+#include "ros/any_type_subscriber.h"
+#include "ros/clock_status.h"
 #include "ros/node_process.h"
-#include "ros/parallel_node.h"
+#include "ros/parallel_parameters.h"
+#include "ros/pose_output.h"
+#include "ros/solver_report.h"
+#include "ros/wrench_input.h"
 
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "parallel_node");
-  // Outlive the try block: with the last handle roscpp shuts down, and its log with it.
-  ros::NodeHandle handle, private_handle("~");
-  const live_stiffness::NodeProcess process;
-  try {
-    live_stiffness::ParallelNode node(handle, private_handle);
-    process.spin();
-  } catch (const std::exception& error) {
-    ROS_FATAL("%s", error.what());
-    return 2;
-  }
-  return 0;
+namespace {
+
+using namespace live_stiffness;
+
+PlatformEstimate toEstimate(const ParallelEstimate& estimate, const ros::Time& stamp, const std::string& frame) {
+  PlatformEstimate message;
+  fillEstimate(estimate, estimate.ellipsoids.translation, stamp, frame, message);
+  message.platform_pose = toPose(estimate.solution.X_BP);
+  message.length = estimate.lengths;
+  message.wrench = toWrench(estimate.wrench);
+  return message;
 }
+
+class ParallelNode {
+ public:
+  ParallelNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
+      : node_(node),
+        parameters_(loadParallelParameters(private_node)),
+        estimator_(parameters_.scene, parameters_.model),
+        length_status_({"rod_lengths", "rod lengths", "rod lengths", "", parameters_.scene.rodCount(),
+                        parameters_.length_timeout}),
+        wrench_input_("platform_wrench", parameters_.frames, parameters_.wrench_timeout),
+        pose_output_(private_node, "platform_pose", parameters_.frames),
+        diagnostics_(node, private_node) {
+    ros::NodeHandle own(private_node), estimation(node);
+    estimate_publisher_ = own.advertise<PlatformEstimate>("estimate", 10);
+    marker_publisher_ = own.advertise<visualization_msgs::MarkerArray>("markers", 1);
+    addDiagnostics();
+    estimation.setCallbackQueue(&estimation_queue_);
+    length_subscriber_.subscribe(estimation, "rod_lengths", 100, &ParallelNode::onLengths, this);
+    wrench_subscriber_ = estimation.subscribe("platform_wrench", 10, &ParallelNode::onWrench, this);
+    // Wall time: simulated time may stand still or jump back.
+    timers_ = {estimation.createWallTimer(ros::WallDuration(1.0 / parameters_.heartbeat), &ParallelNode::onHeartbeat, this),
+               node_.createWallTimer(ros::WallDuration(1.0 / parameters_.marker_rate), &ParallelNode::onMarkers, this),
+               node_.createWallTimer(ros::WallDuration(diagnostics_.getPeriod()),
+                                     [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); })};
+    ROS_INFO("%d rods", parameters_.scene.rodCount());
+    estimation_spinner_.start();
+  }
+
+ private:
+  using Lock = std::lock_guard<std::mutex>;
+  using Status = diagnostic_updater::DiagnosticStatusWrapper;
+
+  // In the estimation thread.
+  void onLengths(const AnyMessage& message) {
+    const Lock lock(mutex_);
+    Parsed<Eigen::VectorXd> lengths = readRodLengths(*message.getConstMessage(), parameters_.length_unit);
+    if (!length_status_.accept(lengths, message.getPublisherName())) return;
+    length_stamp_ = lengths.stamp;
+    estimator_.setLengths({lengths.value.data(), lengths.value.data() + lengths.value.size()});
+    onSolved();
+  }
+  void onWrench(const geometry_msgs::WrenchStamped& message) {
+    const Lock lock(mutex_);
+    const Pose* const X_BP = estimator_.estimate() ? &estimator_.estimate()->solution.X_BP : nullptr;
+    if (const auto wrench = wrench_input_.read(message, X_BP)) {
+      estimator_.setWrench(*wrench);
+      onSolved();
+    }
+  }
+  void onHeartbeat(const ros::WallTimerEvent&) {
+    const Lock lock(mutex_);
+    length_status_.checkClock();
+    if (wrench_input_.expires()) {
+      estimator_.setWrench(Wrench::Zero());
+      onSolved();
+    }
+    if (isStale()) publishEstimate();
+  }
+
+  // With the mutex locked.
+  void onSolved() {
+    if (!estimator_.status().ok()) length_status_.logError(estimator_.statusText());
+    else estimate_stamp_ = length_stamp_;
+    publishEstimate();
+  }
+  // Why the estimate is not that of the newest lengths; empty: it is.
+  std::string newestError() const {
+    return length_status_.error().empty() ? estimator_.statusText() : length_status_.error();
+  }
+  bool isStale() const { return !newestError().empty() || length_status_.isStale(); }
+  // The last good estimate, with the truth about how good it still is.
+  void publishEstimate() {
+    if (estimator_.estimate() == nullptr) return;
+    const ParallelEstimate& estimate = *estimator_.estimate();
+    PlatformEstimate message = toEstimate(estimate, estimate_stamp_, parameters_.frames.base);
+    setStatus(estimator_.status().code, newestError(), length_status_.isStale(), parameters_.length_timeout,
+              "rod lengths", message);
+    estimate_publisher_.publish(message);
+    if (!message.stale) pose_output_.publish(estimate.solution.X_BP, estimate_stamp_);
+  }
+
+  // In the thread of the global callback queue.
+  void onMarkers(const ros::WallTimerEvent&) {
+    std::optional<ParallelEstimate> newest;
+    ros::Time stamp;
+    bool stale;
+    {
+      const Lock lock(mutex_);
+      if (estimator_.estimate() != nullptr) newest = *estimator_.estimate();
+      stamp = estimate_stamp_;
+      stale = isStale();
+    }
+    if (newest)
+      marker_publisher_.publish(makeParallelMarkers(*newest, parameters_.scene, stale, parameters_.style, stamp));
+  }
+  void addDiagnostics() {
+    diagnostics_.setHardwareID("live_stiffness");
+    diagnostics_.add("Rod lengths", [this](Status& status) {
+      const Lock lock(mutex_);
+      length_status_.diagnose(estimator_.statusText(), status);
+    });
+    diagnostics_.add("Solver", [this](Status& status) {
+      const Lock lock(mutex_);
+      reportSolver(estimator_, wrench_input_.error(), status);
+    });
+    diagnostics_.add("Clock", &clock_status_, &ClockStatus::diagnose);
+  }
+
+  ros::NodeHandle node_;
+  ros::CallbackQueue estimation_queue_;
+  ParallelParameters parameters_;
+
+  std::mutex mutex_;  // of these
+  ParallelEstimator estimator_;
+  ArrayStatus length_status_;
+  WrenchInput wrench_input_;
+  PoseOutput pose_output_;
+  ros::Time length_stamp_;    // of the newest usable lengths
+  ros::Time estimate_stamp_;  // of the lengths of the last good estimate
+
+  ros::Publisher estimate_publisher_, marker_publisher_;
+  ClockStatus clock_status_;
+  diagnostic_updater::Updater diagnostics_;
+
+  // Last, so that no callback runs before the rest exists; and the spinner stops first.
+  AnyTypeSubscriber length_subscriber_;
+  ros::Subscriber wrench_subscriber_;
+  std::vector<ros::WallTimer> timers_;
+  ros::AsyncSpinner estimation_spinner_{1, &estimation_queue_};
+};
+
+}  // namespace
+
+int main(int argc, char** argv) { return runNode<ParallelNode>(argc, argv, "parallel_node"); }

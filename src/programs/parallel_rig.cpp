@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "live_stiffness/parallel/parallel_model.h"
 #include "live_stiffness/parallel/parallel_scene_file.h"
 #include "ros/node_process.h"
 #include "ros/parameter_reader.h"
@@ -72,17 +73,4 @@ class ParallelRig {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "parallel_rig");
-  // Outlive the try block: with the last handle roscpp shuts down, and its log with it.
-  ros::NodeHandle handle, private_handle("~");
-  const NodeProcess process;
-  try {
-    ParallelRig rig(handle, private_handle);
-    process.spin();
-  } catch (const std::exception& error) {
-    ROS_FATAL("%s", error.what());
-    return 2;
-  }
-  return 0;
-}
+int main(int argc, char** argv) { return runNode<ParallelRig>(argc, argv, "parallel_rig"); }

@@ -54,17 +54,4 @@ class RigSimulator {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "rig_simulator");
-  // Outlive the try block: with the last handle roscpp shuts down, and its log with it.
-  ros::NodeHandle handle, private_handle("~");
-  const NodeProcess process;
-  try {
-    RigSimulator simulator(handle, private_handle);
-    process.spin();
-  } catch (const std::exception& error) {
-    ROS_FATAL("%s", error.what());
-    return 2;
-  }
-  return 0;
-}
+int main(int argc, char** argv) { return runNode<RigSimulator>(argc, argv, "rig_simulator"); }

@@ -38,7 +38,7 @@ std::string positionText(const std::string& name, const geometry_msgs::Pose& pos
 
 class Monitor {
  public:
-  explicit Monitor(ros::NodeHandle node)
+  Monitor(ros::NodeHandle node, const ros::NodeHandle&)
       : estimates_(node.subscribe("stiffness_node/estimate", 100, &Monitor::onEstimate, this)),
         platform_estimates_(node.subscribe("parallel_node/estimate", 100, &Monitor::onPlatformEstimate, this)),
         errors_(node.subscribe("stiffness_node/tracking_error", 100, &Monitor::onError, this)),
@@ -91,10 +91,4 @@ class Monitor {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "stiffness_monitor");
-  Monitor monitor{ros::NodeHandle()};
-  const live_stiffness::NodeProcess process;
-  process.spin();
-  return 0;
-}
+int main(int argc, char** argv) { return live_stiffness::runNode<Monitor>(argc, argv, "stiffness_monitor"); }

@@ -1,5 +1,7 @@
 #include "ros/contact_output.h"
 
+#include <diagnostic_updater/DiagnosticStatusWrapper.h>
+
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
@@ -18,13 +20,13 @@ void ContactOutput::update(PressuresRef pressures, const Wrench& known, const Po
   estimator_->setKnownWrench(known);
   const bool updated = measured_X_BT != nullptr ? estimator_->update(pressures, *measured_X_BT, stamp.toSec())
                                                 : estimator_->predict(pressures, stamp.toSec());
-  fault_ = estimator_->statusText();
+  error_ = estimator_->statusText();
   if (!updated) return;
   updated_ = ros::Time::now();
   const TipWrenchEstimate& estimate = *estimator_->estimate();
   const std::string& frame = parameters_.frames.base;
   wrench_publisher_.publish(toWrenchStamped(known + estimate.wrench, stamp, frame));
-  contact_publisher_.publish(toTipContact(estimate, known, fault_, stamp, frame));
+  contact_publisher_.publish(toTipContact(estimate, known, error_, stamp, frame));
 }
 
 bool ContactOutput::inContact() const {
@@ -48,13 +50,13 @@ visualization_msgs::MarkerArray ContactOutput::markers(const MarkerStyle& style,
 
 void ContactOutput::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   if (estimator_->estimate() == nullptr) {
-    status.summary(fault_.empty() ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
-                   fault_.empty() ? "no tracker pose to estimate from" : fault_);
+    status.summary(error_.empty() ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
+                   error_.empty() ? "no tracker pose to estimate from" : error_);
     return;
   }
   const TipWrenchEstimate& estimate = *estimator_->estimate();
   const double force = linear(estimate.wrench).norm();
-  if (!fault_.empty()) status.summary(DiagnosticStatus::WARN, fault_);
+  if (!error_.empty()) status.summary(DiagnosticStatus::WARN, error_);
   else if (inContact()) status.summaryf(DiagnosticStatus::OK, "contact, %.2f N", force);
   else status.summary(DiagnosticStatus::OK, "no contact");
   status.add("force (N)", force);

@@ -1,7 +1,6 @@
 #pragma once
 // What touches the tip: the estimate of the external wrench, its topics, its picture and its health.
 
-#include <diagnostic_updater/diagnostic_updater.h>
 #include <live_stiffness/TipContact.h>
 #include <ros/node_handle.h>
 
@@ -11,6 +10,10 @@
 #include "live_stiffness/estimation/tip_wrench_estimator.h"
 #include "ros/markers.h"
 #include "ros/node_parameters.h"
+
+namespace diagnostic_updater {
+class DiagnosticStatusWrapper;
+}
 
 namespace live_stiffness {
 
@@ -22,10 +25,10 @@ class ContactOutput {
   // A tracker pose: estimates and publishes. pressures: newest, gauge, Pa, one per chamber; known: wrench at T that the
   // model is given; measured_X_BT: nullptr if the tracker has lost its sensor, so that it is predicted only.
   void update(PressuresRef pressures, const Wrench& known, const Pose* measured_X_BT, const ros::Time& stamp);
-  // Begins anew, as after another registration.
+  // Forgets the past, as after another registration.
   void reset() { estimator_->reset(); }
   // Another scene or other options.
-  void adopt(std::unique_ptr<TipWrenchEstimator> estimator) { estimator_ = std::move(estimator); }
+  void setEstimator(std::unique_ptr<TipWrenchEstimator> estimator) { estimator_ = std::move(estimator); }
 
   // False too when the newest estimate is older than pose_timeout.
   bool inContact() const;
@@ -40,7 +43,7 @@ class ContactOutput {
   const NodeParameters& parameters_;
   std::unique_ptr<TipWrenchEstimator> estimator_;
   ros::Time updated_;  // when the newest estimate was made
-  std::string fault_;  // of the newest pose; empty: none
+  std::string error_;  // why nothing was estimated from the newest pose; empty: it was
   ros::Publisher wrench_publisher_, contact_publisher_;
 };
 

@@ -1,48 +1,81 @@
 #include "ros/conversions.h"
 
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
-#include <live_stiffness/RodLengths.h>
 #include <std_msgs/Float32MultiArray.h>
 #include <std_msgs/Float64MultiArray.h>
 
+#include <algorithm>
 #include <cmath>
-
-#include "ros/short_allocator.h"
+#include <vector>
 
 namespace live_stiffness {
 namespace {
 
 constexpr double kFarthest = 1000.0;  // m; beyond any tracker's reach, in millimetres too
 
-template <class Array>
-Pressures toVectorXd(const Array& array) {
-  Pressures values(array.size());
-  for (size_t k = 0; k < array.size(); ++k) values[k] = array[k];
-  return values;
-}
-
 template <class Value>
-Reading<Value> faulty(const std::string& fault) {
-  Reading<Value> reading;
-  reading.fault = fault;
-  return reading;
+Parsed<Value> failed(const std::string& error) {
+  Parsed<Value> parsed;
+  parsed.error = error;
+  return parsed;
 }
 
-using Short = ShortAllocator<void>;  // of messages with arrays
+std::string damaged(const topic_tools::ShapeShifter& message) {
+  return "message is damaged, or of another version of " + message.getDataType();
+}
 
-// The message; nullptr, and a fault, if its bytes are cut short, claim more numbers than any robot has, or belong to
-// another version of the type.
-template <class Message, class Value>
-boost::shared_ptr<Message> decode(const topic_tools::ShapeShifter& message, Reading<Value>& reading) {
+// A message without arrays; nullptr if its bytes are cut short or belong to another version of the type.
+template <class Message>
+boost::shared_ptr<Message> decode(const topic_tools::ShapeShifter& message) {
   try {
-    if (message.size() > 0) return message.instantiate<Message>();  // of no bytes roscpp would count from a null pointer
-  } catch (const std::exception&) {
+    if (message.size() > 0) return message.instantiate<Message>();
+  } catch (const ros::Exception&) {
   }
-  reading.fault = "message is damaged, or of another version of " + message.getDataType();
   return nullptr;
 }
 
-std::string pressureFault(double value, const PressureFormat& format) {
+// The bytes of a message with an array, read one after the other. Not by roscpp's own means: they make room for as many
+// numbers as a message claims before they look whether they are there, and a damaged one may claim 4e9. All functions
+// throw ros::Exception where the bytes end.
+class ArrayBytes {
+ public:
+  explicit ArrayBytes(const topic_tools::ShapeShifter& message)
+      : bytes_(std::max(message.size(), 1u)), stream_(bytes_.data(), message.size()) {
+    ros::serialization::OStream out(bytes_.data(), bytes_.size());
+    message.write(out);
+  }
+
+  template <class Field>
+  Field next() {
+    Field field;
+    ros::serialization::deserialize(stream_, field);
+    return field;
+  }
+  // A std_msgs/MultiArrayLayout: dimensions (label, size, stride), offset.
+  void skipLayout() {
+    constexpr uint32_t kSizes = 2 * sizeof(uint32_t);
+    for (uint32_t i = next<uint32_t>(); i > 0; --i) {
+      stream_.advance(next<uint32_t>());
+      stream_.advance(kSizes);
+    }
+    stream_.advance(sizeof(uint32_t));
+  }
+  // The array that ends the message.
+  template <class Number>
+  Eigen::VectorXd numbers() {
+    const uint32_t count = next<uint32_t>();
+    if (count > stream_.getLength() / sizeof(Number)) throw ros::Exception("cut short");
+    Eigen::VectorXd numbers(count);
+    for (uint32_t k = 0; k < count; ++k) numbers[k] = next<Number>();
+    return numbers;
+  }
+
+ private:
+  std::vector<uint8_t> bytes_;
+  ros::serialization::IStream stream_;
+};
+
+std::string pressureError(double value, const PressureFormat& format) {
   if (!std::isfinite(value)) return "is " + numberText(value) + ": must be finite";
   if (format.absolute && value < 0.0)
     return "is " + numberText(value) + ": an absolute pressure must not be negative; is it gauge? "
@@ -50,71 +83,54 @@ std::string pressureFault(double value, const PressureFormat& format) {
   return "";
 }
 
-// Numbers of a stamped message with a `field` for them.
-template <class Stamped, class Array>
-Reading<Eigen::VectorXd> readStamped(const Stamped& message, Array Stamped::*field) {
-  Reading<Eigen::VectorXd> reading;
-  reading.stamp = message.header.stamp;
-  reading.sequence = message.header.seq;
-  reading.value = toVectorXd(message.*field);
-  return reading;
-}
-
-// The same, or of a bare array.
-template <class Stamped, class Array>
-Reading<Eigen::VectorXd> readArray(const topic_tools::ShapeShifter& message, Array Stamped::*field) {
-  Reading<Eigen::VectorXd> reading;
-  const std::string &type = message.getDataType(), own_type = ros::message_traits::DataType<Stamped>::value();
-  if (type == own_type) {
-    if (const auto typed = decode<Stamped>(message, reading)) return readStamped(*typed, field);
-  } else if (type == "std_msgs/Float64MultiArray") {
-    if (const auto typed = decode<std_msgs::Float64MultiArray_<Short>>(message, reading))
-      reading.value = toVectorXd(typed->data);
-  } else if (type == "std_msgs/Float32MultiArray") {
-    if (const auto typed = decode<std_msgs::Float32MultiArray_<Short>>(message, reading))
-      reading.value = toVectorXd(typed->data);
-  } else {
-    reading.fault = "message type " + type + ": must be " + own_type +
-                    ", std_msgs/Float64MultiArray or std_msgs/Float32MultiArray";
+// Numbers of a Stamped (header and an array of float64), a Float64MultiArray or a Float32MultiArray.
+template <class Stamped>
+Parsed<Eigen::VectorXd> readArray(const topic_tools::ShapeShifter& message) {
+  namespace traits = ros::message_traits;
+  Parsed<Eigen::VectorXd> parsed;
+  const std::string& md5 = message.getMD5Sum();
+  try {
+    ArrayBytes bytes(message);
+    if (md5 == traits::md5sum<Stamped>()) {
+      const auto header = bytes.next<std_msgs::Header>();
+      parsed.stamp = header.stamp;
+      parsed.sequence = header.seq;
+      parsed.value = bytes.numbers<double>();
+    } else if (md5 == traits::md5sum<std_msgs::Float64MultiArray>()) {
+      bytes.skipLayout();
+      parsed.value = bytes.numbers<double>();
+    } else if (md5 == traits::md5sum<std_msgs::Float32MultiArray>()) {
+      bytes.skipLayout();
+      parsed.value = bytes.numbers<float>();
+    } else if (message.getDataType() == traits::datatype<Stamped>()) {
+      parsed.error = damaged(message);
+    } else {
+      parsed.error = "message type " + message.getDataType() + ": must be " + traits::datatype<Stamped>() +
+                     ", std_msgs/Float64MultiArray or std_msgs/Float32MultiArray";
+    }
+  } catch (const ros::Exception&) {
+    parsed.error = damaged(message);
   }
-  return reading;
+  return parsed;
 }
 
-Reading<TrackedPose> checkedPose(const ros::Time& stamp, const std::string& frame, const geometry_msgs::Point& p,
-                                 const geometry_msgs::Quaternion& q, double position_unit) {
+Parsed<TrackedPose> checkedPose(const std_msgs::Header& header, const geometry_msgs::Point& p,
+                                const geometry_msgs::Quaternion& q, double position_unit) {
   const Vector3 position(p.x, p.y, p.z);
   const Eigen::Quaterniond rotation(q.w, q.x, q.y, q.z);
   if (!position.allFinite() || !rotation.coeffs().allFinite())
-    return faulty<TrackedPose>("pose is not finite: the tracker does not see its sensor");
+    return failed<TrackedPose>("pose is not finite: the tracker does not see its sensor");
   if (position_unit * position.norm() > kFarthest)
-    return faulty<TrackedPose>("position is " + numberText(position_unit * position.norm()) +
+    return failed<TrackedPose>("position is " + numberText(position_unit * position.norm()) +
                                " m away: must be within " + numberText(kFarthest) + " m");
   const double norm = rotation.norm();
-  if (norm < 1e-6) return faulty<TrackedPose>("quaternion is zero: the tracker does not see its sensor");
+  if (norm < 1e-6) return failed<TrackedPose>("quaternion is zero: the tracker does not see its sensor");
   if (std::abs(norm - 1.0) > 0.05)
-    return faulty<TrackedPose>("quaternion has length " + numberText(norm) + ": must be 1");
-  Reading<TrackedPose> reading;
-  reading.stamp = stamp;
-  reading.value = {{rotation.normalized().toRotationMatrix(), position_unit * position}, withoutSlash(frame)};
-  return reading;
-}
-
-Reading<Pressures> gaugePressures(Reading<Pressures> reading, const PressureFormat& format) {
-  for (int k = 0; k < reading.value.size() && reading.ok(); ++k) {
-    const std::string fault = pressureFault(reading.value[k], format);
-    if (!fault.empty()) reading.fault = "pressure of channel " + std::to_string(k + 1) + " " + fault;
-    reading.value[k] = format.gauge(reading.value[k]);
-  }
-  return reading;
-}
-
-Reading<Eigen::VectorXd> metres(Reading<Eigen::VectorXd> reading, double unit) {
-  for (int i = 0; i < reading.value.size() && reading.ok(); ++i)
-    if (!std::isfinite(reading.value[i]))
-      reading.fault =
-          "length of rod " + std::to_string(i + 1) + " is " + numberText(reading.value[i]) + ": must be finite";
-  reading.value *= unit;
-  return reading;
+    return failed<TrackedPose>("quaternion has length " + numberText(norm) + ": must be 1");
+  Parsed<TrackedPose> parsed;
+  parsed.stamp = header.stamp;
+  parsed.value = {{rotation.normalized().toRotationMatrix(), position_unit * position}, withoutSlash(header.frame_id)};
+  return parsed;
 }
 
 }  // namespace
@@ -128,105 +144,92 @@ double pascalsPerUnit(const std::string& unit) {
   return 0.0;
 }
 
-bool isWhole(const topic_tools::ShapeShifter& message) {
-  const std::string& type = message.getDataType();
-  Reading<double> unused;
-  if (type == "live_stiffness/ChamberPressures") return decode<ChamberPressures_<Short>>(message, unused) != nullptr;
-  if (type == "live_stiffness/RodLengths") return decode<RodLengths_<Short>>(message, unused) != nullptr;
-  if (type == "geometry_msgs/PoseStamped") return decode<geometry_msgs::PoseStamped>(message, unused) != nullptr;
-  return false;
+Parsed<Pressures> readPressures(const topic_tools::ShapeShifter& message, const PressureFormat& format) {
+  Parsed<Pressures> pressures = readArray<ChamberPressures>(message);
+  for (int k = 0; k < pressures.value.size() && pressures.ok(); ++k) {
+    const std::string error = pressureError(pressures.value[k], format);
+    if (!error.empty()) pressures.error = "pressure of channel " + std::to_string(k + 1) + " " + error;
+    pressures.value[k] = format.gauge(pressures.value[k]);
+  }
+  return pressures;
 }
 
-Reading<Pressures> readPressures(const topic_tools::ShapeShifter& message, const PressureFormat& format) {
-  return gaugePressures(readArray(message, &ChamberPressures_<Short>::pressure), format);
+Parsed<Eigen::VectorXd> readRodLengths(const topic_tools::ShapeShifter& message, double unit) {
+  Parsed<Eigen::VectorXd> lengths = readArray<RodLengths>(message);
+  for (int i = 0; i < lengths.value.size() && lengths.ok(); ++i)
+    if (!std::isfinite(lengths.value[i]))
+      lengths.error =
+          "length of rod " + std::to_string(i + 1) + " is " + numberText(lengths.value[i]) + ": must be finite";
+  lengths.value *= unit;
+  return lengths;
 }
 
-Reading<Pressures> readPressures(const ChamberPressures& message, const PressureFormat& format) {
-  return gaugePressures(readStamped(message, &ChamberPressures::pressure), format);
+Parsed<double> readPressure(const sensor_msgs::FluidPressure& message, const PressureFormat& format) {
+  Parsed<double> parsed;
+  parsed.stamp = message.header.stamp;
+  parsed.value = format.gauge(message.fluid_pressure);
+  const std::string error = pressureError(message.fluid_pressure, format);
+  if (!error.empty()) parsed.error = "pressure " + error;
+  return parsed;
 }
 
-Reading<Eigen::VectorXd> readRodLengths(const topic_tools::ShapeShifter& message, double unit) {
-  return metres(readArray(message, &RodLengths_<Short>::length), unit);
-}
-
-Reading<Eigen::VectorXd> readRodLengths(const RodLengths& message, double unit) {
-  return metres(readStamped(message, &RodLengths::length), unit);
-}
-
-Reading<double> readPressure(const sensor_msgs::FluidPressure& message, const PressureFormat& format) {
-  Reading<double> reading;
-  reading.stamp = message.header.stamp;
-  reading.value = format.gauge(message.fluid_pressure);
-  const std::string fault = pressureFault(message.fluid_pressure, format);
-  if (!fault.empty()) reading.fault = "pressure " + fault;
-  return reading;
-}
-
-Reading<TrackedPose> readPose(const topic_tools::ShapeShifter& message, double position_unit) {
-  Reading<TrackedPose> reading;
+Parsed<TrackedPose> readPose(const topic_tools::ShapeShifter& message, double position_unit) {
   const std::string& type = message.getDataType();
   if (type == "geometry_msgs/PoseStamped") {
-    if (const auto typed = decode<geometry_msgs::PoseStamped>(message, reading)) return readPose(*typed, position_unit);
+    if (const auto typed = decode<geometry_msgs::PoseStamped>(message))
+      return checkedPose(typed->header, typed->pose.position, typed->pose.orientation, position_unit);
   } else if (type == "geometry_msgs/PoseWithCovarianceStamped") {
-    if (const auto typed = decode<geometry_msgs::PoseWithCovarianceStamped>(message, reading))
-      return checkedPose(typed->header.stamp, typed->header.frame_id, typed->pose.pose.position,
-                         typed->pose.pose.orientation, position_unit);
+    if (const auto typed = decode<geometry_msgs::PoseWithCovarianceStamped>(message))
+      return checkedPose(typed->header, typed->pose.pose.position, typed->pose.pose.orientation, position_unit);
   } else if (type == "geometry_msgs/TransformStamped") {
-    if (const auto typed = decode<geometry_msgs::TransformStamped>(message, reading))
-      return readPose(*typed, position_unit);
+    if (const auto typed = decode<geometry_msgs::TransformStamped>(message)) return readPose(*typed, position_unit);
   } else {
-    reading.fault = "message type " + type + ": must be geometry_msgs/PoseStamped, "
-                    "geometry_msgs/PoseWithCovarianceStamped or geometry_msgs/TransformStamped";
+    return failed<TrackedPose>("message type " + type + ": must be geometry_msgs/PoseStamped, "
+                               "geometry_msgs/PoseWithCovarianceStamped or geometry_msgs/TransformStamped");
   }
-  return reading;
+  return failed<TrackedPose>(damaged(message));
 }
 
-Reading<TrackedPose> readPose(const geometry_msgs::PoseStamped& message, double position_unit) {
-  return checkedPose(message.header.stamp, message.header.frame_id, message.pose.position, message.pose.orientation,
-                     position_unit);
-}
-
-Reading<TrackedPose> readPose(const geometry_msgs::TransformStamped& message, double position_unit) {
+Parsed<TrackedPose> readPose(const geometry_msgs::TransformStamped& message, double position_unit) {
   geometry_msgs::Point position;
   position.x = message.transform.translation.x;
   position.y = message.transform.translation.y;
   position.z = message.transform.translation.z;
-  return checkedPose(message.header.stamp, message.header.frame_id, position, message.transform.rotation,
-                     position_unit);
+  return checkedPose(message.header, position, message.transform.rotation, position_unit);
 }
 
-Reading<Pose> readPose(const geometry_msgs::Pose& message) {
-  const Reading<TrackedPose> checked = checkedPose(ros::Time(), "", message.position, message.orientation, 1.0);
-  if (!checked.ok()) return faulty<Pose>("pose must be finite, with a quaternion of length 1");
+Parsed<Pose> readPose(const geometry_msgs::Pose& message) {
+  const Parsed<TrackedPose> checked = checkedPose({}, message.position, message.orientation, 1.0);
+  if (!checked.ok()) return failed<Pose>("pose must be finite, with a quaternion of length 1");
   return {checked.stamp, checked.value.pose, ""};
 }
 
-Reading<Matrix3> readAxes(const std::string& frame, const FrameNames& frames, const Pose* X_BT) {
+Parsed<Matrix3> readAxes(const std::string& frame, const FrameNames& frames, const Pose* X_BT) {
   const std::string name = withoutSlash(frame);
   if (name.empty() || name == frames.base) return {ros::Time(), Matrix3::Identity(), ""};
   if (name != frames.body)
-    return faulty<Matrix3>("unknown frame " + name + ": must be " + frames.base +
+    return failed<Matrix3>("unknown frame " + name + ": must be " + frames.base +
                            (frames.body.empty() ? "" : " or " + frames.body));
-  if (X_BT == nullptr) return faulty<Matrix3>("the axes of " + name + " are not known before the first estimate");
+  if (X_BT == nullptr) return failed<Matrix3>("the axes of " + name + " are not known before the first estimate");
   return {ros::Time(), X_BT->R, ""};
 }
 
-Reading<Wrench> readWrench(const geometry_msgs::WrenchStamped& message, const FrameNames& frames, const Pose* X_BT) {
-  Reading<Wrench> reading;
-  reading.stamp = message.header.stamp;
+Parsed<Wrench> readWrench(const geometry_msgs::WrenchStamped& message, const FrameNames& frames, const Pose* X_BT) {
+  Parsed<Wrench> parsed;
+  parsed.stamp = message.header.stamp;
   const geometry_msgs::Vector3 &f = message.wrench.force, &m = message.wrench.torque;
-  reading.value << f.x, f.y, f.z, m.x, m.y, m.z;
-  if (!reading.value.allFinite()) return faulty<Wrench>("wrench is not finite: six finite numbers, N and N m");
-  const Reading<Matrix3> axes = readAxes(message.header.frame_id, frames, X_BT);
-  reading.fault = axes.fault;
-  if (axes.ok()) reading.value = wrenchAdjoint({axes.value, Vector3::Zero()}) * reading.value;
-  return reading;
+  parsed.value << f.x, f.y, f.z, m.x, m.y, m.z;
+  if (!parsed.value.allFinite()) return failed<Wrench>("wrench is not finite: six finite numbers, N and N m");
+  const Parsed<Matrix3> axes = readAxes(message.header.frame_id, frames, X_BT);
+  parsed.error = axes.error;
+  if (axes.ok()) parsed.value = wrenchAdjoint({axes.value, Vector3::Zero()}) * parsed.value;
+  return parsed;
 }
 
-Reading<Vector3> readVector(const geometry_msgs::Vector3& message, const std::string& name) {
+Parsed<Vector3> readVector(const geometry_msgs::Vector3& message, const std::string& name) {
   const Vector3 value(message.x, message.y, message.z);
   if (!value.allFinite())
-    return faulty<Vector3>(name + " = [" + numberText(value.x()) + ", " + numberText(value.y()) + ", " +
+    return failed<Vector3>(name + " = [" + numberText(value.x()) + ", " + numberText(value.y()) + ", " +
                            numberText(value.z()) + "]: must be three finite numbers");
   return {ros::Time(), value, ""};
 }

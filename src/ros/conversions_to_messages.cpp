@@ -3,13 +3,6 @@
 namespace live_stiffness {
 namespace {
 
-std_msgs::Header header(const ros::Time& stamp, const std::string& frame) {
-  std_msgs::Header header;
-  header.stamp = stamp;
-  header.frame_id = frame;
-  return header;
-}
-
 template <class Message>
 Message toXyz(const Vector3& v) {
   Message message;
@@ -19,19 +12,17 @@ Message toXyz(const Vector3& v) {
   return message;
 }
 
-// What the estimates of both kinds of robots share.
-template <class Estimate, class Message>
-void fillEstimate(const Estimate& estimate, const Ellipsoid& translation, const ros::Time& stamp,
-                  const std::string& frame, Message& message) {
-  message.header = header(stamp, frame);
-  copyRowByRow(estimate.solution.compliance, message.compliance);
-  copyRowByRow(estimate.solution.material_compliance, message.material_compliance);
-  copyRowByRow(estimate.stiffness, message.stiffness);
-  for (int k = 0; k < 3; ++k) message.compliance_eigenvalues[k] = translation.half_axes[k];
-  message.iterations = estimate.solution.iterations;
-  message.solve_time = estimate.solve_time;
-  message.numerical_error = estimate.solution.numerical_error;
+}  // namespace
+
+std_msgs::Header toHeader(const ros::Time& stamp, const std::string& frame) {
+  std_msgs::Header header;
+  header.stamp = stamp;
+  header.frame_id = frame;
+  return header;
 }
+
+geometry_msgs::Point toPoint(const Vector3& p) { return toXyz<geometry_msgs::Point>(p); }
+geometry_msgs::Vector3 toVector(const Vector3& v) { return toXyz<geometry_msgs::Vector3>(v); }
 
 geometry_msgs::Wrench toWrench(const Wrench& wrench) {
   geometry_msgs::Wrench message;
@@ -39,11 +30,6 @@ geometry_msgs::Wrench toWrench(const Wrench& wrench) {
   message.torque = toVector(angular(wrench));
   return message;
 }
-
-}  // namespace
-
-geometry_msgs::Point toPoint(const Vector3& p) { return toXyz<geometry_msgs::Point>(p); }
-geometry_msgs::Vector3 toVector(const Vector3& v) { return toXyz<geometry_msgs::Vector3>(v); }
 
 geometry_msgs::Quaternion toQuaternion(const Matrix3& R) {
   Eigen::Quaterniond q(R);
@@ -67,7 +53,7 @@ geometry_msgs::Pose toPose(const Pose& X) {
 geometry_msgs::TransformStamped toTransform(const Pose& X, const ros::Time& stamp, const std::string& parent,
                                             const std::string& child) {
   geometry_msgs::TransformStamped transform;
-  transform.header = header(stamp, parent);
+  transform.header = toHeader(stamp, parent);
   transform.child_frame_id = child;
   transform.transform.translation = toVector(X.p);
   transform.transform.rotation = toQuaternion(X.R);
@@ -76,7 +62,7 @@ geometry_msgs::TransformStamped toTransform(const Pose& X, const ros::Time& stam
 
 geometry_msgs::PoseStamped toPoseStamped(const Pose& X, const ros::Time& stamp, const std::string& frame) {
   geometry_msgs::PoseStamped pose;
-  pose.header = header(stamp, frame);
+  pose.header = toHeader(stamp, frame);
   pose.pose = toPose(X);
   return pose;
 }
@@ -90,7 +76,7 @@ ChamberPressures toPressures(PressuresRef pressures, const ros::Time& stamp) {
 
 geometry_msgs::WrenchStamped toWrenchStamped(const Wrench& wrench, const ros::Time& stamp, const std::string& frame) {
   geometry_msgs::WrenchStamped message;
-  message.header = header(stamp, frame);
+  message.header = toHeader(stamp, frame);
   message.wrench = toWrench(wrench);
   return message;
 }
@@ -102,15 +88,6 @@ StiffnessEstimate toEstimate(const Estimate& estimate, const ros::Time& stamp, c
   message.pressure.assign(estimate.pressures.data(), estimate.pressures.data() + estimate.pressures.size());
   message.tip_wrench = toWrench(estimate.tip_wrench);
   message.stretch = estimate.stretch;
-  return message;
-}
-
-PlatformEstimate toEstimate(const ParallelEstimate& estimate, const ros::Time& stamp, const std::string& frame) {
-  PlatformEstimate message;
-  fillEstimate(estimate, estimate.ellipsoids.translation, stamp, frame, message);
-  message.platform_pose = toPose(estimate.solution.X_BP);
-  message.length = estimate.lengths;
-  message.wrench = toWrench(estimate.wrench);
   return message;
 }
 
@@ -129,14 +106,14 @@ void fillDeflection(const DeflectionCheck& check, PredictDeflection::Response& r
   response.exponential_rotation_error = check.exponential_error.rotation;
 }
 
-TipContact toTipContact(const TipWrenchEstimate& estimate, const Wrench& known, const std::string& fault,
+TipContact toTipContact(const TipWrenchEstimate& estimate, const Wrench& known, const std::string& error,
                         const ros::Time& stamp, const std::string& frame) {
   TipContact contact;
-  contact.header = header(stamp, frame);
+  contact.header = toHeader(stamp, frame);
   contact.contact = estimate.contact;
   contact.outlier = estimate.outlier;
   contact.tracked = estimate.tracked;
-  contact.message = fault;
+  contact.message = error;
   contact.wrench = toWrench(estimate.wrench);
   copyRowByRow(estimate.covariance, contact.covariance);
   contact.known_wrench = toWrench(known);
@@ -181,7 +158,7 @@ geometry_msgs::Twist toTwist(const Twist& twist) {
 nav_msgs::Path toPath(const std::vector<Station>& stations, const Pose& X_BT, const ros::Time& stamp,
                       const std::string& frame) {
   nav_msgs::Path path;
-  path.header = header(stamp, frame);
+  path.header = toHeader(stamp, frame);
   for (const Station& station : stations) path.poses.push_back(toPoseStamped(station.X_BS, stamp, frame));
   path.poses.push_back(toPoseStamped(X_BT, stamp, frame));
   return path;
@@ -190,7 +167,7 @@ nav_msgs::Path toPath(const std::vector<Station>& stations, const Pose& X_BT, co
 TrackingError toTrackingError(const Pose& measured, const Pose& predicted, const Twist& residual,
                               const ros::Time& stamp, const std::string& frame) {
   TrackingError error;
-  error.header = header(stamp, frame);
+  error.header = toHeader(stamp, frame);
   error.measured = toPose(measured);
   error.predicted = toPose(predicted);
   error.translation = toVector(linear(residual));

@@ -17,12 +17,12 @@ double largestCompliance(const Station& station) {
   return ellipsoidOf(station.compliance.topLeftCorner<3, 3>()).half_axes.z();
 }
 
-Marker tube(const std::vector<Station>& samples, bool stale, const MarkerStyle& style, const ros::Time& stamp) {
+Marker tube(const std::vector<Station>& shape, bool stale, const MarkerStyle& style, const ros::Time& stamp) {
   std::vector<Pose> sections;
   std::vector<double> compliance;
-  for (const Station& sample : samples) {
-    sections.push_back(sample.X_BS);
-    compliance.push_back(largestCompliance(sample));
+  for (const Station& station : shape) {
+    sections.push_back(station.X_BS);
+    compliance.push_back(largestCompliance(station));
   }
   const double largest = std::max(1e-12, *std::max_element(compliance.begin(), compliance.end()));
   std::vector<std_msgs::ColorRGBA> colors;
@@ -77,11 +77,10 @@ Vector3 arrowOf(const Vector3& force, double force_n_per_m) {
 
 }  // namespace
 
-MarkerArray makeMarkers(const Estimate& estimate, const std::vector<Station>& samples,
-                        const std::optional<Pose>& measured_tip, bool stale, const MarkerStyle& style,
-                        const ros::Time& stamp) {
+MarkerArray makeMarkers(const Estimate& estimate, const std::optional<Pose>& measured_tip, bool stale,
+                        const MarkerStyle& style, const ros::Time& stamp) {
   MarkerArray markers;
-  markers.markers.push_back(tube(samples, stale, style, stamp));
+  markers.markers.push_back(tube(estimate.shape, stale, style, stamp));
   const size_t per_segment = estimate.stations.size() / std::max<size_t>(1, estimate.stretch.size());
   for (size_t i = 0; i < estimate.stations.size(); ++i) {
     Marker marker = newMarker(style.frame, stamp, "ellipsoids", static_cast<int>(i), Marker::SPHERE);

@@ -13,10 +13,8 @@ namespace live_stiffness {
 
 // Markers, by namespace: `backbone` (tube, blue to red with the local compliance), `ellipsoids` (translational
 // compliance at the stations, a colour per segment), `tip_ellipsoid` (tangent, at T), `tip` (predicted and, if given,
-// measured tip, and the line between), `text` (eigenvalues). Shapes are grey when stale. samples: the shape, base to
-// tip; not empty.
-visualization_msgs::MarkerArray makeMarkers(const Estimate& estimate, const std::vector<Station>& samples,
-                                            const std::optional<Pose>& measured_tip, bool stale,
+// measured tip, and the line between), `text` (eigenvalues). Shapes are grey when stale.
+visualization_msgs::MarkerArray makeMarkers(const Estimate& estimate, const std::optional<Pose>& measured_tip, bool stale,
                                             const MarkerStyle& style, const ros::Time& stamp);
 
 // Namespace `eigenscrews`: the axes of the six eigenscrews (21) of the stiffness as lines in space, `length` (m) long,

@@ -1,48 +1,51 @@
 // What changes a running StiffnessNode: ~reset, ~pause, ~reload and dynamic_reconfigure.
 
+#include <dynamic_reconfigure/server.h>
+
+#include "ros/reconfiguration.h"
 #include "ros/stiffness_node.h"
 
 namespace live_stiffness {
-namespace {
 
-std::string joined(const std::vector<std::string>& faults) {
-  std::string text;
-  for (const std::string& fault : faults) text += (text.empty() ? "" : "; ") + fault;
-  return text;
-}
+struct StiffnessNode::Reconfiguration {
+  Reconfiguration(StiffnessNode& node, const ros::NodeHandle& private_node) : node(node), server(private_node) {
+    server.getConfigDefault(config);
+    config.__fromServer__(private_node);  // the parameters were loaded from there
+    server.setCallback([this](StiffnessConfig& wanted, uint32_t level) { onChange(wanted, level); });
+  }
+  void onChange(StiffnessConfig& wanted, uint32_t level);
 
-}  // namespace
+  StiffnessNode& node;
+  StiffnessConfig config;  // that holds
+  dynamic_reconfigure::Server<StiffnessConfig> server;
+};
 
-void StiffnessNode::addServices() {
+void StiffnessNode::addCommands() {
   servers_ = {private_node_.advertiseService("reset", &StiffnessNode::reset, this),
               private_node_.advertiseService("pause", &StiffnessNode::pause, this),
               private_node_.advertiseService("reload", &StiffnessNode::reload, this)};
-  reconfiguration_ = std::make_unique<dynamic_reconfigure::Server<StiffnessConfig>>(private_node_);
-  reconfiguration_->getConfigDefault(config_);
-  config_.__fromServer__(private_node_);  // the parameters were loaded from there
-  reconfiguration_->setCallback([this](StiffnessConfig& config, uint32_t level) { onReconfigure(config, level); });
+  reconfiguration_ = std::make_shared<Reconfiguration>(*this, private_node_);
 }
 
-void StiffnessNode::renew(const NodeParameters& parameters, bool keeps_inputs) {
+void StiffnessNode::setParameters(const NodeParameters& parameters, bool keeps_inputs) {
   const auto estimator = std::make_shared<StiffnessEstimator>(parameters.scene, parameters.model, parameters.estimator);
   auto contact = std::make_unique<TipWrenchEstimator>(parameters.scene, parameters.model, parameters.contact);
-  const std::shared_ptr<const StiffnessModel> model(estimator, &estimator->model());
-  const std::scoped_lock lock(tracking_.mutex(), live_.mutex());
+  const std::scoped_lock lock(tracking_mutex_, estimation_mutex_);
   const bool is_same_robot = parameters.scene.chamberCount() == parameters_.scene.chamberCount();
   parameters_ = parameters;
   const Pressures pressures = estimator_->pressures();
   if (keeps_inputs) estimator->setTipWrench(estimator_->tipWrench());
   estimator_ = estimator;
   history_.clear();
-  contact_.adopt(std::move(contact));
-  pressure_input_.adapt();
+  contact_.setEstimator(std::move(contact));
+  pressure_input_.updateChannels();
   if (!keeps_inputs || !is_same_robot) estimate_stamp_ = ros::Time();
-  else if (pressures.size() > 0) react(estimator_->setPressures(pressures, pressure_stamp_.toSec()));
+  else if (pressures.size() > 0) onSolved(estimator_->setPressures(pressures, pressure_stamp_.toSec()));
 }
 
 bool StiffnessNode::reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  renew(parameters_, false);
-  registration_.restart(newest().model);
+  setParameters(parameters_, false);
+  registration_.restart(snapshot().model);
   response.success = true;
   response.message = "estimate, tip wrench, contact and the past for ~register are forgotten";
   ROS_INFO_STREAM("reset: " << response.message);
@@ -50,7 +53,7 @@ bool StiffnessNode::reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Respon
 }
 
 bool StiffnessNode::pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
-  const Lock lock(live_.mutex());
+  const Lock lock(estimation_mutex_);
   is_paused_ = request.data;
   publishEstimate();
   response.success = true;
@@ -68,40 +71,38 @@ bool StiffnessNode::reload(std_srvs::Trigger::Request&, std_srvs::Trigger::Respo
     parameters.model = read.model;
     parameters.estimator = read.estimator;
     parameters.contact = read.contact;
-    renew(parameters, true);
-    registration_.restart(newest().model);
-    config_.__fromServer__(private_node_);
-    reconfiguration_->updateConfig(config_);
+    setParameters(parameters, true);
+    registration_.restart(snapshot().model);
+    reconfiguration_->config.__fromServer__(private_node_);
+    reconfiguration_->server.updateConfig(reconfiguration_->config);
     response.success = true;
     response.message = "loaded: " + std::to_string(parameters.scene.segmentCount()) + " segment(s), " +
                        std::to_string(parameters.scene.chamberCount()) + " chamber(s)";
     ROS_INFO_STREAM("reload: " << response.message);
   } catch (const ConfigurationError& error) {
-    response.message = "kept what was loaded before: " + joined(error.faults());
+    response.message = "kept what was loaded before: " + oneLine(error.faults());
     ROS_ERROR_STREAM("reload: " << response.message);
   }
   return true;
 }
 
-void StiffnessNode::onReconfigure(StiffnessConfig& config, uint32_t level) {
+void StiffnessNode::Reconfiguration::onChange(StiffnessConfig& wanted, uint32_t level) {
   if (level == ~0u) return;  // the first call: what was loaded at start
-  NodeParameters parameters = parameters_;
+  NodeParameters parameters = node.parameters_;
   FaultList faults("reconfigure");
-  apply(config, parameters, faults);
+  apply(wanted, parameters, faults);
   try {
     faults.throwIfAny();
-    if (level & (kContactChanged | kRobotChanged)) {
-      renew(parameters, true);
-      if (level & kRobotChanged) registration_.restart(newest().model);
-    }
+    if (level & (kContactChanged | kRobotChanged)) node.setParameters(parameters, true);
+    if (level & kRobotChanged) node.registration_.restart(node.snapshot().model);
   } catch (const ConfigurationError& error) {
-    ROS_ERROR_STREAM("reconfigure: kept what was set before: " << joined(error.faults()));
-    config = config_;
+    ROS_ERROR_STREAM("reconfigure: kept what was set before: " << oneLine(error.faults()));
+    wanted = config;
     return;
   }
-  const std::scoped_lock lock(tracking_.mutex(), live_.mutex());
-  parameters_ = parameters;
-  config_ = config;
+  const std::scoped_lock lock(node.tracking_mutex_, node.estimation_mutex_);
+  node.parameters_ = parameters;
+  config = wanted;
 }
 
 }  // namespace live_stiffness

@@ -2,8 +2,6 @@
 
 #include <ros/console.h>
 
-#include <cmath>
-
 #include "live_stiffness/rod/scene_file.h"
 #include "ros/contact_parameters.h"
 #include "ros/parameter_reader.h"
@@ -24,11 +22,6 @@ void readModel(ParameterReader& read, NodeParameters& parameters, FaultList& fau
   parameters.estimator.update_threshold =
       read.number("update_threshold_pa", parameters.estimator.update_threshold, {0.0, 1e8});
   parameters.heartbeat = read.number("heartbeat_hz", parameters.heartbeat, {0.1, 1000.0});
-  const double priority = read.number("realtime_priority", 0.0, {0.0, 99.0});
-  if (priority != std::floor(priority))
-    faults.add("~realtime_priority = " + numberText(priority) + ": must be a whole number");
-  parameters.realtime_priority = static_cast<int>(priority);
-  parameters.lock_memory = read.boolean("lock_memory", parameters.lock_memory);
 }
 
 void readPressureInput(ParameterReader& read, NodeParameters& parameters, FaultList& faults) {

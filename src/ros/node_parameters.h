@@ -11,18 +11,22 @@
 #include "live_stiffness/estimation/stiffness_estimator.h"
 #include "live_stiffness/estimation/tip_wrench_options.h"
 #include "ros/conversions.h"
-#include "ros/tip_handle.h"
+#include "ros/marker_shapes.h"
 #include "live_stiffness/section/channel_map.h"
 
 namespace live_stiffness {
+
+struct TipHandleOptions {
+  bool enabled = true;
+  double force_per_m = 20.0;     // N of force for each m the handle is dragged, and of the arrow drawn
+  double moment_per_rad = 0.01;  // N m of moment for each rad the handle is turned
+};
 
 struct NodeParameters {
   Scene scene;
   ModelOptions model;
   EstimatorOptions estimator;
   double heartbeat = 1.0;  // Hz
-  int realtime_priority = 0;  // of SCHED_FIFO for the thread that estimates, 1 to 99; 0: like any thread
-  bool lock_memory = false;   // so that no page of the process is swapped out
 
   PressureFormat pressure_format;
   std::vector<std::string> pressure_topics;  // one sensor_msgs/FluidPressure topic per channel; empty: one topic

@@ -1,26 +1,34 @@
 #pragma once
-// What every node's process does beside its work: it stops in good order on SIGTERM as on SIGINT, and when the master
-// was restarted it registers there anew.
+// The main function of every node.
 
 #include <ros/ros.h>
 
 #include <csignal>
+#include <exception>
+#include <string>
 
-#include "ros/master_watch.h"
+#include "ros/master_check.h"
 
 namespace live_stiffness {
 
-class NodeProcess {
- public:
-  // After ros::init() and the first NodeHandle, which installs roscpp's own handler of SIGINT.
-  NodeProcess() { std::signal(SIGTERM, [](int) { ros::requestShutdown(); }); }
-
-  // Until it is told to stop. Call it when all is advertised: what the first look at the master does not find there, the
-  // next master is not told if this one dies within the second.
-  void spin() const {
-    const MasterWatch watch;
+// Runs a node until SIGINT or SIGTERM. Node: made from a public and a private ros::NodeHandle; its constructor throws
+// ConfigurationError on bad parameters. Returns the exit status: 0 in good order; 2 bad parameters, listed in the log;
+// 3 the master could not be reached for 10 s and ~exit_without_master is true, as launch files with respawn:=true set it.
+template <class Node>
+int runNode(int argc, char** argv, const std::string& name) {
+  ros::init(argc, argv, name);
+  // They outlive the node: with the last handle roscpp shuts down, and its log with it.
+  ros::NodeHandle handle, private_handle("~");
+  std::signal(SIGTERM, [](int) { ros::requestShutdown(); });  // roscpp itself handles SIGINT only
+  try {
+    const Node node(handle, private_handle);
+    const MasterCheck master(private_handle.param("exit_without_master", false));
     ros::spin();
+    return master.hasShutDown() ? 3 : 0;
+  } catch (const std::exception& error) {
+    ROS_FATAL("%s", error.what());
+    return 2;
   }
-};
+}
 
 }  // namespace live_stiffness

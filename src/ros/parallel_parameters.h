@@ -7,7 +7,7 @@
 
 #include "live_stiffness/parallel/parallel_model.h"
 #include "ros/conversions.h"
-#include "ros/parallel_markers.h"
+#include "programs/parallel_markers.h"
 
 namespace live_stiffness {
 

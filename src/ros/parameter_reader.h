@@ -42,7 +42,7 @@ class ParameterReader {
 
   ros::NodeHandle node_;
   FaultList& faults_;
-  std::set<std::string> asked_;
+  std::set<std::string> asked_{"exit_without_master"};  // this one by runNode()
 };
 
 // Names of ~base_frame (default: base) and of the frame that `body_key` names; a fault unless they are two.

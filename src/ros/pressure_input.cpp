@@ -11,71 +11,57 @@ ChannelMap makeChannelMap(const NodeParameters& parameters) {
   return ChannelMap::even(parameters.scene.chamberCount(), parameters.scene.chamberCount());
 }
 
-ArrayInput::Settings settingsOf(const NodeParameters& parameters, int channel_count) {
-  return {"chamber_pressures", "pressures",   "channels", "; see ~channel_of_chamber",
-          channel_count,       parameters.pressure_timeout};
-}
-
-// Nothing when each channel has a topic of its own.
-ArrayInput::Subscribe subscriptionOf(const NodeParameters& parameters) {
-  if (!parameters.pressure_topics.empty()) return nullptr;
-  const PressureFormat format = parameters.pressure_format;
-  return ArrayInput::subscribeTo<ChamberPressures>(
-      [format](const auto& message) { return readPressures(message, format); });
-}
-
 }  // namespace
 
-PressureInput::PressureInput(ros::NodeHandle node, const NodeParameters& parameters, OnPressures on_pressures,
-                             OnFault on_fault)
+PressureInput::PressureInput(const NodeParameters& parameters)
     : parameters_(parameters),
       channel_map_(makeChannelMap(parameters)),
-      input_(
-          node, settingsOf(parameters, channel_map_.channelCount()), subscriptionOf(parameters),
-          [this, on_pressures = std::move(on_pressures)](const Eigen::VectorXd& channels, const ros::Time& stamp) {
-            on_pressures(channel_map_.expand(channels), stamp);
-          },
-          std::move(on_fault)) {
-  const std::vector<std::string>& topics = parameters_.pressure_topics;
-  channels_.setZero(topics.size());
-  heard_.assign(topics.size(), ros::Time());
-  stamps_.assign(topics.size(), ros::Time());
-  for (size_t channel = 0; channel < topics.size(); ++channel) {
-    const boost::function<void(const sensor_msgs::FluidPressure::ConstPtr&)> callback =
-        [this, channel](const sensor_msgs::FluidPressure::ConstPtr& message) { onChannel(message, channel); };
-    subscribers_.push_back(node.subscribe<sensor_msgs::FluidPressure>(topics[channel], 10, callback));
-  }
-}
+      status_({"chamber_pressures", "pressures", "channels", "; see ~channel_of_chamber", channel_map_.channelCount(),
+               parameters.pressure_timeout}),
+      channels_(Pressures::Zero(parameters.pressure_topics.size())),
+      heard_(parameters.pressure_topics.size()),
+      stamps_(parameters.pressure_topics.size()) {}
 
-void PressureInput::adapt() {
+void PressureInput::updateChannels() {
   channel_map_ = makeChannelMap(parameters_);
-  input_.expect(channel_map_.channelCount());
+  status_.setCount(channel_map_.channelCount());
 }
 
-// A channel that is silent or faulty makes the pressures as a whole stale.
+std::optional<Parsed<Pressures>> PressureInput::read(const AnyMessage& message) {
+  return chamberPressures(readPressures(*message.getConstMessage(), parameters_.pressure_format),
+                          message.getPublisherName());
+}
+
+std::optional<Parsed<Pressures>> PressureInput::chamberPressures(Parsed<Pressures> channels,
+                                                                 const std::string& publisher) {
+  if (!status_.accept(channels, publisher)) return std::nullopt;
+  channels.value = channel_map_.expand(channels.value);
+  return channels;
+}
+
+// A channel that is silent or bad makes the pressures as a whole stale.
 bool PressureInput::allHeard(const ros::Time& now) const {
   return std::all_of(heard_.begin(), heard_.end(), [&](const ros::Time& heard) {
     return !heard.isZero() && std::abs((now - heard).toSec()) <= parameters_.pressure_timeout;
   });
 }
 
-// One topic per channel: nothing is known unless every channel has just been heard.
-void PressureInput::onChannel(const sensor_msgs::FluidPressure::ConstPtr& message, size_t channel) {
-  const Reading<double> reading = readPressure(*message, parameters_.pressure_format);
-  Reading<Pressures> all;
-  if (reading.ok()) {
+std::optional<Parsed<Pressures>> PressureInput::readChannel(const sensor_msgs::FluidPressure& message, size_t channel) {
+  const Parsed<double> pressure = readPressure(message, parameters_.pressure_format);
+  Parsed<Pressures> all;
+  if (pressure.ok()) {
     const ros::Time now = ros::Time::now();
-    channels_[channel] = reading.value;
+    channels_[channel] = pressure.value;
     heard_[channel] = now;
+    stamps_[channel] = pressure.stamp;
+    if (!allHeard(now)) return std::nullopt;
     all.value = channels_;
-    all.stamp = stamps_[channel] = reading.stamp;
-    for (const ros::Time& stamp : stamps_) all.stamp = std::max(all.stamp, stamp);
-    if (!allHeard(now)) return;
+    all.stamp = *std::max_element(stamps_.begin(), stamps_.end());
   } else {
     heard_[channel] = ros::Time();
-    all.fault = parameters_.pressure_topics[channel] + ": " + reading.fault;
+    all.error = parameters_.pressure_topics[channel] + ": " + pressure.error;
   }
-  input_.take(all, "");
+  return chamberPressures(std::move(all), "");
 }
 
 }  // namespace live_stiffness

@@ -1,43 +1,46 @@
 #pragma once
 // Chamber pressures from whatever topics a rig publishes.
 
+#include <sensor_msgs/FluidPressure.h>
+
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "ros/array_input.h"
+#include "live_stiffness/section/channel_map.h"
+#include "ros/any_type_subscriber.h"
+#include "ros/input_status.h"
 #include "ros/node_parameters.h"
 
 namespace live_stiffness {
 
 class PressureInput {
  public:
-  using OnPressures = ArrayInput::OnValues;  // gauge, Pa, one per chamber
-  using OnFault = ArrayInput::OnFault;
-
-  // Calls on_pressures with usable pressures, and on_fault with the reason for each message that cannot be used.
   // parameters must outlive the input.
-  PressureInput(ros::NodeHandle node, const NodeParameters& parameters, OnPressures on_pressures, OnFault on_fault);
+  explicit PressureInput(const NodeParameters& parameters);
 
-  // As those of ArrayInput.
-  void reject(const std::string& fault) { input_.reject(fault); }
-  bool isStale() const { return input_.isStale(); }
-  void tend() { input_.tend(); }
-  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) { input_.diagnose(status); }
+  // Gauge pressures (Pa, one per chamber) and the stamp to use for them. None if the message cannot be used.
+  std::optional<Parsed<Pressures>> read(const AnyMessage& message);
+  // The same when each channel has a topic of its own, one of ~pressure_topics: also none unless every channel sent a
+  // good message within ~pressure_timeout_s. channel: from 0.
+  std::optional<Parsed<Pressures>> readChannel(const sensor_msgs::FluidPressure& message, size_t channel);
   // The parameters have another scene or channel_of_chamber.
-  void adapt();
+  void updateChannels();
+
   int channelCount() const { return channel_map_.channelCount(); }
+  ArrayStatus& status() { return status_; }
+  const ArrayStatus& status() const { return status_; }
 
  private:
+  std::optional<Parsed<Pressures>> chamberPressures(Parsed<Pressures> channels, const std::string& publisher);
   bool allHeard(const ros::Time& now) const;
-  void onChannel(const sensor_msgs::FluidPressure::ConstPtr& message, size_t channel);
 
   const NodeParameters& parameters_;
   ChannelMap channel_map_;
-  ArrayInput input_;
-  Pressures channels_;            // newest of each of pressure_topics
-  std::vector<ros::Time> heard_;  // when each of them was last heard to be good; zero: not since its last fault
+  ArrayStatus status_;
+  Pressures channels_;             // newest of each of ~pressure_topics
+  std::vector<ros::Time> heard_;   // when the newest good message of each arrived; zero: not since its last bad one
   std::vector<ros::Time> stamps_;  // of the newest message of each
-  std::vector<ros::Subscriber> subscribers_;  // one for each of them
 };
 
 }  // namespace live_stiffness

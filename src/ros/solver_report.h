@@ -1,24 +1,24 @@
 #pragma once
 // Health of the solver of either kind of robot, for diagnostics.
 
-#include <diagnostic_updater/diagnostic_updater.h>
+#include <diagnostic_updater/DiagnosticStatusWrapper.h>
 
 #include <string>
 
 namespace live_stiffness {
 
-// estimator: StiffnessEstimator or ParallelEstimator. wrench_fault: what is wrong with the known wrench; empty:
+// estimator: StiffnessEstimator or ParallelEstimator. wrench_error: what is wrong with the known wrench; empty:
 // nothing.
 template <class Estimator>
-void reportSolver(const Estimator& estimator, const std::string& wrench_fault,
+void reportSolver(const Estimator& estimator, const std::string& wrench_error,
                   diagnostic_updater::DiagnosticStatusWrapper& status) {
   using diagnostic_msgs::DiagnosticStatus;
   if (!estimator.status().ok())
     status.summary(DiagnosticStatus::ERROR, estimator.statusText());
   else if (estimator.estimate() == nullptr)
     status.summary(DiagnosticStatus::WARN, "nothing solved yet");
-  else if (!wrench_fault.empty())
-    status.summary(DiagnosticStatus::WARN, wrench_fault);
+  else if (!wrench_error.empty())
+    status.summary(DiagnosticStatus::WARN, wrench_error);
   else
     status.summary(DiagnosticStatus::OK, "ok");
   if (estimator.estimate() == nullptr) return;

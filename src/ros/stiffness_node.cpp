@@ -1,17 +1,15 @@
 #include "ros/stiffness_node.h"
 
 #include "live_stiffness/analysis/deflection.h"
-#include "ros/solver_report.h"
+#include "ros/markers.h"
+#include "ros/tip_handle.h"
 
 namespace live_stiffness {
 namespace {
 
-constexpr int kBackboneSamples = 20;     // per segment
-constexpr double kOldestStamp = 1.0;     // s, of pressures when their estimate is published
-constexpr double kFuturestStamp = 0.1;   // s
-
-ros::NodeHandle onGlobalQueue(ros::NodeHandle node) {
-  node.setCallbackQueue(nullptr);
+// The same names, with callbacks in a queue; nullptr: the global one.
+ros::NodeHandle onQueue(ros::NodeHandle node, ros::CallbackQueue* queue) {
+  node.setCallbackQueue(queue);
   return node;
 }
 
@@ -23,82 +21,108 @@ void append(visualization_msgs::MarkerArray& all, const visualization_msgs::Mark
 
 StiffnessNode::StiffnessNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
     : parameters_(loadNodeParameters(private_node)),
-      node_(onGlobalQueue(node)),
-      private_node_(onGlobalQueue(private_node)),
+      node_(onQueue(node, nullptr)),
+      private_node_(onQueue(private_node, nullptr)),
+      estimate_publisher_(private_node_.advertise<StiffnessEstimate>("estimate", 100)),
+      backbone_publisher_(private_node_.advertise<nav_msgs::Path>("backbone", 1)),
+      marker_publisher_(private_node_.advertise<visualization_msgs::MarkerArray>("markers", 1)),
+      error_publisher_(private_node_.advertise<TrackingError>("tracking_error", 10)),
       estimator_(std::make_shared<StiffnessEstimator>(parameters_.scene, parameters_.model, parameters_.estimator)),
+      pressure_input_(parameters_),
+      wrench_input_("tip_wrench", parameters_.frames, parameters_.tip_wrench_timeout),
       pose_output_(private_node_, "tip_pose", parameters_.frames),
+      tracker_input_(onQueue(node, &tracking_queue_), parameters_),
       contact_(private_node_, parameters_),
-      diagnostics_(node_, private_node_),
-      lowest_rate_(parameters_.heartbeat),
-      frequency_({&lowest_rate_, &highest_rate_}, "Estimates"),
-      time_stamps_({-kFuturestStamp, kOldestStamp}, "Time stamps"),
-      wrench_input_(
-          live_.handle(node), "tip_wrench", parameters_.frames, parameters_.tip_wrench_timeout,
-          [this] { return estimator_->estimate() ? &estimator_->estimate()->solution.X_BT : nullptr; },
-          [this](const Wrench& wrench) { react(estimator_->setTipWrench(wrench)); }),
-      pressure_input_(
-          live_.handle(node), parameters_,
-          [this](const Pressures& pressures, const ros::Time& stamp) { onPressures(pressures, stamp); },
-          [this](const std::string& fault) { input_fault_ = fault; }),
-      tracker_input_(tracking_.handle(node), parameters_,
-                     [this](const Pose& X_AS, const Pose& measured_X_BT, const ros::Time& stamp) {
-                       onTracked(X_AS, measured_X_BT, stamp);
-                     }),
-      services_(private_node_, parameters_.frames, [this] { return newest(); }),
+      services_(private_node_, parameters_.frames, [this] { return snapshot(); }),
       registration_(private_node_, model(), parameters_, [this](const Registration& registration) {
-        const Lock lock(tracking_.mutex());
+        const Lock lock(tracking_mutex_);
         parameters_.registration = registration;
         contact_.reset();
       }) {
-  estimate_publisher_ = private_node_.advertise<StiffnessEstimate>("estimate", 100);
-  error_publisher_ = private_node_.advertise<TrackingError>("tracking_error", 10);
-  backbone_publisher_ = private_node_.advertise<nav_msgs::Path>("backbone", 1);
-  marker_publisher_ = private_node_.advertise<visualization_msgs::MarkerArray>("markers", 1);
-  addDiagnostics();
   if (parameters_.tip_handle.enabled)
     tip_handle_ = std::make_unique<TipHandle>(private_node_, parameters_.style, parameters_.tip_handle,
-                                              marker_publisher_, [this] { return newest(); });
-  addServices();
-  const ros::Duration heartbeat(1.0 / parameters_.heartbeat), between_markers(1.0 / parameters_.marker_rate);
-  timers_ = {live_.handle(node).createTimer(heartbeat, &StiffnessNode::onHeartbeat, this),
-             tracking_.handle(node).createTimer(heartbeat, [this](const ros::TimerEvent&) { tracker_input_.tend(); }),
-             drawing_.handle(node).createTimer(between_markers, &StiffnessNode::onMarkers, this), tracker_input_.tfTimer()};
-  const std::string fault = parameters_.lock_memory ? lockMemory() : "";
-  if (!fault.empty()) ROS_WARN("~lock_memory: memory cannot be locked, going on without: %s", fault.c_str());
+                                              marker_publisher_, [this] { return snapshot(); });
+  addDiagnostics();
+  addCommands();
+  subscribe(node);
   ROS_INFO("%s, stepping %s, %d segment(s), %d chamber(s) on %d channel(s)", modelName(parameters_.model).c_str(),
            steppingName(parameters_.model.stepping).c_str(), parameters_.scene.segmentCount(),
            parameters_.scene.chamberCount(), pressure_input_.channelCount());
-  live_.start("live_estimate", parameters_.realtime_priority);
-  tracking_.start("live_tracking", 0);
-  drawing_.start("live_drawing", 0);
+  estimation_spinner_.start();
+  tracking_spinner_.start();
 }
 
-StiffnessNode::~StiffnessNode() {
-  drawing_.stop();
-  tracking_.stop();
-  live_.stop();
+StiffnessNode::~StiffnessNode() = default;
+
+void StiffnessNode::subscribe(const ros::NodeHandle& node) {
+  constexpr int kPressureQueue = 100;  // enough for a tenth of a second of 1 kHz
+  constexpr double kTfRate = 40.0;     // Hz, an NDI Aurora's
+  ros::NodeHandle estimation = onQueue(node, &estimation_queue_), tracking = onQueue(node, &tracking_queue_);
+  const std::vector<std::string>& topics = parameters_.pressure_topics;
+  for (size_t channel = 0; channel < topics.size(); ++channel)
+    subscribers_.push_back(estimation.subscribe<sensor_msgs::FluidPressure>(
+        topics[channel], 10, [this, channel](const sensor_msgs::FluidPressure::ConstPtr& message) {
+          onChannelPressure(*message, channel);
+        }));
+  if (topics.empty())
+    pressure_subscriber_.subscribe(estimation, "chamber_pressures", kPressureQueue, &StiffnessNode::onPressures, this);
+  subscribers_.push_back(estimation.subscribe("tip_wrench", 10, &StiffnessNode::onTipWrench, this));
+  // Wall time: simulated time may stand still or jump back.
+  const ros::WallDuration heartbeat(1.0 / parameters_.heartbeat);
+  timers_ = {estimation.createWallTimer(heartbeat, &StiffnessNode::onHeartbeat, this),
+             tracking.createWallTimer(heartbeat, &StiffnessNode::onTrackingHeartbeat, this),
+             node_.createWallTimer(ros::WallDuration(1.0 / parameters_.marker_rate), &StiffnessNode::onMarkers, this)};
+  if (tracker_input_.usesTf())
+    timers_.push_back(tracking.createWallTimer(ros::WallDuration(1.0 / kTfRate), &StiffnessNode::onTfTimer, this));
+  else
+    pose_subscriber_.subscribe(tracking, "aurora_pose", 10, &StiffnessNode::onTrackerPose, this);
 }
 
-void StiffnessNode::onPressures(const Pressures& pressures, const ros::Time& stamp) {
-  pressure_stamp_ = stamp;
-  input_fault_.clear();
+void StiffnessNode::onPressures(const AnyMessage& message) {
+  const Lock lock(estimation_mutex_);
+  if (const auto pressures = pressure_input_.read(message)) estimate(*pressures);
+}
+
+void StiffnessNode::onChannelPressure(const sensor_msgs::FluidPressure& message, size_t channel) {
+  const Lock lock(estimation_mutex_);
+  if (const auto pressures = pressure_input_.readChannel(message, channel)) estimate(*pressures);
+}
+
+void StiffnessNode::onTipWrench(const geometry_msgs::WrenchStamped& message) {
+  const Lock lock(estimation_mutex_);
+  const Pose* const X_BT = estimator_->estimate() ? &estimator_->estimate()->solution.X_BT : nullptr;
+  if (const auto wrench = wrench_input_.read(message, X_BT)) onSolved(estimator_->setTipWrench(*wrench));
+}
+
+void StiffnessNode::onHeartbeat(const ros::WallTimerEvent&) {
+  const Lock lock(estimation_mutex_);
+  pressure_input_.status().checkClock();
+  if (wrench_input_.expires()) onSolved(estimator_->setTipWrench(Wrench::Zero()));
+  if (isStale()) publishEstimate();
+  else onSolved(estimator_->solve());
+}
+
+void StiffnessNode::estimate(const Parsed<Pressures>& pressures) {
+  pressure_stamp_ = pressures.stamp;
   if (!is_paused_) {
-    react(estimator_->setPressures(pressures, stamp.toSec()));
+    const double time = pressures.stamp.toSec();
+    onSolved(estimator_->setPressures(pressures.value, time));
     if (estimator_->estimate() != nullptr && estimator_->status().ok())
-      history_.add({stamp.toSec(), pressures, estimator_->estimate()->solution.X_BT});
+      history_.add({time, pressures.value, estimator_->estimate()->solution.X_BT});
   }
-  registration_.addPressures(pressures, stamp);  // last, so that the estimate does not wait for it
+  registration_.addPressures(pressures.value, pressures.stamp);  // last, so that the estimate does not wait for it
 }
 
-void StiffnessNode::react(StiffnessEstimator::Outcome outcome) {
-  if (!estimator_->status().ok()) pressure_input_.reject(estimator_->statusText());
+void StiffnessNode::onSolved(StiffnessEstimator::Outcome outcome) {
+  if (!estimator_->status().ok()) pressure_input_.status().logError(estimator_->statusText());
   else if (outcome == StiffnessEstimator::Outcome::kSolved) estimate_stamp_ = pressure_stamp_;
   if (outcome != StiffnessEstimator::Outcome::kUnchanged) publishEstimate();
 }
 
-std::string StiffnessNode::newestFault() const {
+std::string StiffnessNode::newestError() const {
   if (is_paused_) return "paused: ~pause with false goes on";
-  return input_fault_.empty() ? estimator_->statusText() : input_fault_;
+  const std::string& input_error = pressure_input_.status().error();
+  return input_error.empty() ? estimator_->statusText() : input_error;
 }
 
 // The last good estimate, with the truth about how good it still is.
@@ -107,43 +131,45 @@ void StiffnessNode::publishEstimate() {
   const Estimate& estimate = *estimator_->estimate();
   const auto message =
       boost::make_shared<StiffnessEstimate>(toEstimate(estimate, estimate_stamp_, parameters_.frames.base));
-  setStanding(estimator_->status().code, newestFault(), pressure_input_.isStale(), parameters_.pressure_timeout,
-              "pressures", *message);
+  setStatus(estimator_->status().code, newestError(), pressure_input_.status().isStale(), parameters_.pressure_timeout,
+            "pressures", *message);
   if (is_paused_) message->status = static_cast<uint8_t>(estimator_->status().code);
   estimate_publisher_.publish(message);  // shared: no copy for subscribers in this process
-  frequency_.tick();
-  if (message->stale) return;
-  time_stamps_.tick(estimate_stamp_);
-  pose_output_.publish(estimate.solution.X_BT, estimate_stamp_);
+  countPublished(message->stale);
+  if (!message->stale) pose_output_.publish(estimate.solution.X_BT, estimate_stamp_);
 }
 
-void StiffnessNode::onHeartbeat(const ros::TimerEvent&) {
-  pressure_input_.tend();
-  wrench_input_.tend();
-  if (isStale()) publishEstimate();
-  else react(estimator_->solve());
+EstimateSnapshot StiffnessNode::snapshot() {
+  const Lock lock(estimation_mutex_);
+  EstimateSnapshot snapshot{model(), nullptr, estimate_stamp_, isStale()};
+  if (estimator_->estimate() != nullptr) snapshot.estimate = std::make_shared<Estimate>(*estimator_->estimate());
+  return snapshot;
 }
 
-NewestEstimate StiffnessNode::newestOfLane() const {
-  NewestEstimate newest{model(), nullptr, estimate_stamp_, isStale()};
-  if (estimator_->estimate() != nullptr) newest.estimate = std::make_shared<Estimate>(*estimator_->estimate());
-  return newest;
+void StiffnessNode::onTrackerPose(const AnyMessage& message) {
+  const Lock lock(tracking_mutex_);
+  if (const auto measured = tracker_input_.read(message)) compare(*measured);
 }
 
-NewestEstimate StiffnessNode::newest() {
-  const Lock lock(live_.mutex());
-  return newestOfLane();
+void StiffnessNode::onTfTimer(const ros::WallTimerEvent&) {
+  const Lock lock(tracking_mutex_);
+  if (const auto measured = tracker_input_.lookUp()) compare(*measured);
 }
 
-void StiffnessNode::onTracked(const Pose& X_AS, const Pose& measured_X_BT, const ros::Time& stamp) {
+void StiffnessNode::onTrackingHeartbeat(const ros::WallTimerEvent&) {
+  const Lock lock(tracking_mutex_);
+  tracker_input_.status().checkClock();
+}
+
+void StiffnessNode::compare(const TipMeasurement& measured) {
   // A late tracker shows how the robot stood then.
-  const double delay = parameters_.registration.tracker_delay, time = stamp.toSec() - delay;
+  const double delay = parameters_.registration.tracker_delay, time = measured.stamp.toSec() - delay;
   Moment then;
   Wrench newest_wrench, solved_wrench;
   bool is_known;
   {
-    const Lock lock(live_.mutex());
-    const Estimate* estimate = estimator_->estimate();
+    const Lock lock(estimation_mutex_);
+    const Estimate* const estimate = estimator_->estimate();
     newest_wrench = estimator_->tipWrench();
     is_known = estimate != nullptr && !isStale() && !history_.empty();
     if (is_known) {
@@ -151,87 +177,37 @@ void StiffnessNode::onTracked(const Pose& X_AS, const Pose& measured_X_BT, const
       then = delay == 0.0 ? Moment{time, estimator_->pressures(), estimate->solution.X_BT} : history_.at(time);
     }
   }
-  registration_.addPose(X_AS, newest_wrench, contact_.inContact(), time);
+  registration_.addPose(measured.X_AS, newest_wrench, contact_.inContact(), time);
   if (!is_known) return;
-  const Twist residual = residualTwist(measured_X_BT, then.X_BT);
+  const Twist residual = residualTwist(measured.X_BT, then.X_BT);
   const bool is_lost = tracker_input_.repeatsItself();
-  contact_.update(then.pressures, solved_wrench, is_lost ? nullptr : &measured_X_BT, stamp);
+  contact_.update(then.pressures, solved_wrench, is_lost ? nullptr : &measured.X_BT, measured.stamp);
   if (is_lost) return;
   tracking_error_ = linear(residual).norm();
-  error_publisher_.publish(toTrackingError(measured_X_BT, then.X_BT, residual, stamp, parameters_.frames.base));
+  error_publisher_.publish(
+      toTrackingError(measured.X_BT, then.X_BT, residual, measured.stamp, parameters_.frames.base));
 }
 
-// Solved anew, so that the live lane need not wait while it is sampled.
-std::vector<Station> StiffnessNode::shapeOf(const NewestEstimate& newest) {
-  const Estimate& estimate = *newest.estimate;
-  shape_solver_.follow(newest.model);
-  const StiffnessSolution solution =
-      shape_solver_.model().solve(estimate.effective, estimate.tip_wrench, shape_solver_.workspace());
-  if (solution.status.ok() && isSameEquilibrium(solution.X_BT, estimate.solution.X_BT, shape_solver_.model()))
-    return sampleBackbone(shape_solver_.model(), shape_solver_.workspace(), kBackboneSamples);
-  // In another stable shape than the one it takes from rest, which only the live solver can show.
-  const Lock lock(live_.mutex());
-  const std::vector<Station> samples = estimator_->sampleBackbone(kBackboneSamples);
-  return samples.empty() ? estimate.stations : samples;
-}
-
-void StiffnessNode::onMarkers(const ros::TimerEvent&) {
-  const NewestEstimate newest = this->newest();
+void StiffnessNode::onMarkers(const ros::WallTimerEvent&) {
+  const EstimateSnapshot newest = snapshot();
   if (newest.estimate == nullptr) return;
   const Estimate& estimate = *newest.estimate;
-  const std::vector<Station> samples = shapeOf(newest);
-  if (samples.empty()) return;
+  const MarkerStyle& style = parameters_.style;
   std::optional<Pose> measured_tip;
   visualization_msgs::MarkerArray contact;
-  MarkerStyle style;
-  double eigenscrew_length;  // m; 0: none are shown
   {
-    const Lock lock(tracking_.mutex());
-    style = parameters_.style;
-    eigenscrew_length = parameters_.show_eigenscrews ? parameters_.eigenscrew_length : 0.0;
+    const Lock lock(tracking_mutex_);
     measured_tip = tracker_input_.freshTip();
     contact = contact_.markers(style, newest.stamp);
   }
-  visualization_msgs::MarkerArray markers =
-      makeMarkers(estimate, samples, measured_tip, newest.stale, style, newest.stamp);
+  visualization_msgs::MarkerArray markers = makeMarkers(estimate, measured_tip, newest.stale, style, newest.stamp);
   append(markers, contact);
-  if (eigenscrew_length > 0.0)
-    append(markers, makeEigenscrewMarkers(estimate, newest.stale, eigenscrew_length, style, newest.stamp));
+  if (parameters_.show_eigenscrews)
+    append(markers,
+           makeEigenscrewMarkers(estimate, newest.stale, parameters_.eigenscrew_length, style, newest.stamp));
   marker_publisher_.publish(markers);
   if (tip_handle_) tip_handle_->update();
-  backbone_publisher_.publish(toPath(samples, estimate.solution.X_BT, newest.stamp, style.frame));
-}
-
-void StiffnessNode::addDiagnostics() {
-  diagnostics_.setHardwareID("live_stiffness");
-  diagnostics_.add("Pressures", [this](Status& status) {
-    const Lock lock(live_.mutex());
-    pressure_input_.diagnose(status);
-  });
-  diagnostics_.add("Tracker", [this](Status& status) {
-    const Lock lock(tracking_.mutex());
-    tracker_input_.diagnose(status);
-    status.add("tracking error (mm)", 1e3 * tracking_error_);
-  });
-  diagnostics_.add("Contact", [this](Status& status) {
-    const Lock lock(tracking_.mutex());
-    contact_.diagnose(status);
-  });
-  diagnostics_.add("Solver", [this](Status& status) {
-    const Lock lock(live_.mutex());
-    status.add("model", modelName(parameters_.model) + ", " + steppingName(parameters_.model.stepping));
-    reportSolver(*estimator_, wrench_input_.fault(), status);
-    if (is_paused_) status.summary(diagnostic_msgs::DiagnosticStatus::WARN, newestFault());
-  });
-  diagnostics_.add("Clock", &clock_watch_, &ClockWatch::diagnose);
-  diagnostics_.add(frequency_);
-  diagnostics_.add(time_stamps_);
-  // Not update(): it waits for ROS time, which may stand still or jump back.
-  diagnostics_timer_ = node_.createWallTimer(ros::WallDuration(diagnostics_.getPeriod()),
-                                             [this](const ros::WallTimerEvent&) {
-                                               diagnostics_.force_update();
-                                               clock_watch_.restartAfterJump(timers_);
-                                             });
+  backbone_publisher_.publish(toPath(estimate.shape, estimate.solution.X_BT, newest.stamp, style.frame));
 }
 
 }  // namespace live_stiffness

@@ -1,12 +1,12 @@
-// live_stiffness/StiffnessNodelet: stiffness_node in a nodelet manager. Estimates and, from nodelets of the same
-// manager, pressures and poses pass without a copy.
+// live_stiffness/StiffnessNodelet: stiffness_node in a nodelet manager. Estimates pass without a copy to nodelets of
+// the same manager.
 
 #include <nodelet/nodelet.h>
 #include <pluginlib/class_list_macros.hpp>
 
 #include <memory>
 
-#include "ros/master_watch.h"
+#include "ros/master_check.h"
 #include "ros/stiffness_node.h"
 
 namespace live_stiffness {
@@ -16,11 +16,11 @@ class StiffnessNodelet : public nodelet::Nodelet {
   // A throw here is logged by the manager with its text, and the nodelet is not loaded.
   void onInit() override {
     node_ = std::make_unique<StiffnessNode>(getNodeHandle(), getPrivateNodeHandle());
-    master_ = std::make_unique<MasterWatch>(getPrivateNodeHandle().getNamespace());
+    master_ = std::make_unique<MasterCheck>(false);
   }
 
   std::unique_ptr<StiffnessNode> node_;
-  std::unique_ptr<MasterWatch> master_;
+  std::unique_ptr<MasterCheck> master_;
 };
 
 }  // namespace live_stiffness

@@ -9,11 +9,11 @@ namespace live_stiffness {
 namespace {
 
 constexpr char kOtherShape[] =
-    "the robot is in another stable shape than the one it takes from rest, which alone can be solved anew";
+    "the robot is in another stable shape than the one it takes from rest, which alone can be solved for";
 
 // Fills what all answers share. False, and why, if there is nothing to answer from.
 template <class Response>
-bool begin(const NewestEstimate& newest, const std::string& frame, Response& response) {
+bool begin(const EstimateSnapshot& newest, const std::string& frame, Response& response) {
   response.success = false;
   if (newest.estimate == nullptr) {
     response.message = "nothing solved yet: waiting for usable pressures";
@@ -26,8 +26,8 @@ bool begin(const NewestEstimate& newest, const std::string& frame, Response& res
 }
 
 template <class Response>
-bool refuse(const std::string& fault, Response& response) {
-  response.message = fault;
+bool refuse(const std::string& error, Response& response) {
+  response.message = error;
   return true;
 }
 
@@ -37,17 +37,11 @@ bool accept(Response& response) {
   return true;
 }
 
-std::string joined(const std::vector<std::string>& faults) {
-  std::string text;
-  for (const std::string& fault : faults) text += (text.empty() ? "" : "; ") + fault;
-  return text;
-}
-
 }  // namespace
 
 StiffnessServices::StiffnessServices(ros::NodeHandle private_node, FrameNames frames,
-                                     AskNewest newest)
-    : frames_(std::move(frames)), newest_(std::move(newest)) {
+                                     GetSnapshot get_snapshot)
+    : frames_(std::move(frames)), get_snapshot_(std::move(get_snapshot)) {
   servers_ = {
       private_node.advertiseService("predict_deflection", &StiffnessServices::predictDeflection, this),
       private_node.advertiseService("compliance_at", &StiffnessServices::complianceAt, this),
@@ -55,12 +49,12 @@ StiffnessServices::StiffnessServices(ros::NodeHandle private_node, FrameNames fr
 }
 
 bool StiffnessServices::predictDeflection(PredictDeflection::Request& request, PredictDeflection::Response& response) {
-  const NewestEstimate newest = newest_();
-  solver_.follow(newest.model);
+  const EstimateSnapshot newest = get_snapshot_();
+  solver_.setModel(newest.model);
   if (!begin(newest, frames_.base, response)) return true;
   const Estimate& estimate = *newest.estimate;
-  const Reading<Wrench> wrench = readWrench(request.wrench, frames_, &estimate.solution.X_BT);
-  if (!wrench.ok()) return refuse(wrench.fault, response);
+  const Parsed<Wrench> wrench = readWrench(request.wrench, frames_, &estimate.solution.X_BT);
+  if (!wrench.ok()) return refuse(wrench.error, response);
   const DeflectionCheck check =
       checkDeflection(solver_.model(), estimate.effective, estimate.tip_wrench, wrench.value, solver_.workspace());
   if (check.undeflected_ok && !isSameEquilibrium(check.undeflected, estimate.solution.X_BT, solver_.model()))
@@ -74,13 +68,13 @@ bool StiffnessServices::predictDeflection(PredictDeflection::Request& request, P
 }
 
 bool StiffnessServices::complianceAt(ComplianceAt::Request& request, ComplianceAt::Response& response) {
-  const NewestEstimate newest = newest_();
-  solver_.follow(newest.model);
+  const EstimateSnapshot newest = get_snapshot_();
+  solver_.setModel(newest.model);
   if (!begin(newest, frames_.base, response)) return true;
   FaultList faults("compliance_at");
   faults.check("segment", request.segment, {0.0, solver_.model().scene().segmentCount() - 1.0});
   faults.check("fraction", request.fraction, {0.0, 1.0});
-  if (!faults.empty()) return refuse(joined(faults.faults()), response);
+  if (!faults.empty()) return refuse(oneLine(faults.faults()), response);
   const Estimate& estimate = *newest.estimate;
   solver_.workspace().reset();
   const StiffnessSolution solution = solver_.model().solve(estimate.effective, estimate.tip_wrench, solver_.workspace());
@@ -100,16 +94,16 @@ bool StiffnessServices::complianceAt(ComplianceAt::Request& request, ComplianceA
 
 bool StiffnessServices::directionalStiffness(DirectionalStiffness::Request& request,
                                              DirectionalStiffness::Response& response) {
-  const NewestEstimate newest = newest_();
-  solver_.follow(newest.model);
+  const EstimateSnapshot newest = get_snapshot_();
+  solver_.setModel(newest.model);
   if (!begin(newest, frames_.base, response)) return true;
   const Estimate& estimate = *newest.estimate;
-  const Reading<Matrix3> axes = readAxes(request.frame_id, frames_, &estimate.solution.X_BT);
-  if (!axes.ok()) return refuse(axes.fault, response);
-  const Reading<Vector3> direction = readVector(request.direction, "direction"),
+  const Parsed<Matrix3> axes = readAxes(request.frame_id, frames_, &estimate.solution.X_BT);
+  if (!axes.ok()) return refuse(axes.error, response);
+  const Parsed<Vector3> direction = readVector(request.direction, "direction"),
                          offset = readVector(request.offset, "offset");
-  if (!direction.ok()) return refuse(direction.fault, response);
-  if (!offset.ok()) return refuse(offset.fault, response);
+  if (!direction.ok()) return refuse(direction.error, response);
+  if (!offset.ok()) return refuse(offset.error, response);
   const double length = direction.value.stableNorm();
   if (!(length > 0.0)) return refuse("direction = [0, 0, 0]: must not be zero; its length does not matter", response);
   const Line line{axes.value * offset.value, axes.value * (direction.value / length)};

@@ -11,14 +11,14 @@
 #include <vector>
 
 #include "ros/conversions.h"
-#include "ros/newest_estimate.h"
+#include "ros/estimate_snapshot.h"
 
 namespace live_stiffness {
 
 class StiffnessServices {
  public:
   // Advertises them.
-  StiffnessServices(ros::NodeHandle private_node, FrameNames frames, AskNewest newest);
+  StiffnessServices(ros::NodeHandle private_node, FrameNames frames, GetSnapshot get_snapshot);
   StiffnessServices(const StiffnessServices&) = delete;  // callbacks refer to it
 
   // The answers; always true, since a question that cannot be answered has success = false.
@@ -28,8 +28,8 @@ class StiffnessServices {
 
  private:
   FrameNames frames_;
-  AskNewest newest_;
-  OwnSolver solver_;
+  GetSnapshot get_snapshot_;
+  ModelWorkspace solver_;
   std::vector<ros::ServiceServer> servers_;
 };
 

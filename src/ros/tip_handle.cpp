@@ -60,11 +60,11 @@ InteractiveMarkerControl axisControl(const Vector3& axis, uint8_t mode, const st
 constexpr char TipHandle::kName[];
 
 TipHandle::TipHandle(const ros::NodeHandle& private_node, const MarkerStyle& style,
-                     const TipHandleOptions& options, const ros::Publisher& markers, AskNewest newest)
+                     const TipHandleOptions& options, const ros::Publisher& markers, GetSnapshot get_snapshot)
     : style_(style),
       options_(options),
       markers_(markers),
-      newest_(std::move(newest)),
+      get_snapshot_(std::move(get_snapshot)),
       server_(private_node.resolveName("tip_marker")) {
   fillMenu();
 }
@@ -73,9 +73,8 @@ void TipHandle::fillMenu() {
   for (Question question :
        {Question::kForceAtPosition, Question::kWrenchAtPose, Question::kDeflectionUnderWrench})
     entries_.push_back(menu_.insert(
-        titleOf(question),
-        [this, question](const InteractiveMarkerFeedback::ConstPtr&) { later([this, question] { choose(question); }); }));
-  menu_.insert("Let go", [this](const InteractiveMarkerFeedback::ConstPtr&) { later([this] { letGo(); }); });
+        titleOf(question), [this, question](const InteractiveMarkerFeedback::ConstPtr&) { choose(question); }));
+  menu_.insert("Let go", [this](const InteractiveMarkerFeedback::ConstPtr&) { letGo(); });
   choose(question_);
 }
 
@@ -119,24 +118,19 @@ void TipHandle::insertMarker(const Pose& X_BT) {
   setBall(ball.markers.back(), Vector3::Zero(), 0.35 * marker.scale, color(0.9, 0.9, 0.95, 0.35));
   marker.controls.push_back(ball);
   server_.insert(marker, [this](const InteractiveMarkerFeedback::ConstPtr& feedback) {
-    if (feedback->event_type == InteractiveMarkerFeedback::POSE_UPDATE) later([this, feedback] { drag(*feedback); });
+    if (feedback->event_type == InteractiveMarkerFeedback::POSE_UPDATE) drag(*feedback);
   });
   menu_.apply(server_, kName);
   is_inserted_ = true;
 }
 
-void TipHandle::later(std::function<void()> action) {
-  const std::lock_guard<std::mutex> lock(waiting_mutex_);
-  waiting_.push_back(std::move(action));
-}
-
 void TipHandle::drag(const InteractiveMarkerFeedback& feedback) {
-  const NewestEstimate newest = newest_();
+  const EstimateSnapshot newest = get_snapshot_();
   if (newest.estimate == nullptr) return;
-  const Reading<Pose> pose = readPose(feedback.pose);
-  const Reading<Matrix3> axes = readAxes(feedback.header.frame_id, {style_.frame, ""}, nullptr);
+  const Parsed<Pose> pose = readPose(feedback.pose);
+  const Parsed<Matrix3> axes = readAxes(feedback.header.frame_id, {style_.frame, ""}, nullptr);
   if (!pose.ok() || !axes.ok()) {
-    ROS_ERROR_THROTTLE(1.0, "tip_marker: %s", (pose.ok() ? axes.fault : pose.fault).c_str());
+    ROS_ERROR_THROTTLE(1.0, "tip_marker: %s", (pose.ok() ? axes.error : pose.error).c_str());
     return;
   }
   dragged_ = pose.value;
@@ -151,16 +145,13 @@ bool TipHandle::isAnswered(const Estimate& estimate) const {
 }
 
 void TipHandle::update() {
-  std::vector<std::function<void()>> actions;
-  {
-    const std::lock_guard<std::mutex> lock(waiting_mutex_);
-    actions.swap(waiting_);
-  }
-  for (const auto& action : actions) action();
-  const NewestEstimate newest = newest_();
+  const EstimateSnapshot newest = get_snapshot_();
   if (newest.estimate == nullptr) return;
   const Estimate& estimate = *newest.estimate;
-  if (solver_.follow(newest.model)) letGo(), is_inserted_ = false;
+  if (solver_.setModel(newest.model)) {
+    letGo();
+    is_inserted_ = false;
+  }
   if (!is_inserted_) insertMarker(estimate.solution.X_BT);
   if (!dragged_) server_.setPose(kName, toPose(estimate.solution.X_BT));
   server_.applyChanges();

@@ -5,28 +5,21 @@
 // where a wrench takes it. The handle follows the tip until it is dragged, and stays where it is dragged until "let
 // go". Each is answered by the exact nonlinear equilibrium in a workspace of its own, never by the live solver.
 //
-// What the mouse does arrives in the server's thread, and waits there for the thread that calls update().
+// All runs in the thread that spins the global callback queue: the mouse's events as well as update().
 
 #include <interactive_markers/interactive_marker_server.h>
 #include <interactive_markers/menu_handler.h>
 #include <ros/node_handle.h>
 
-#include <functional>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "ros/estimate_snapshot.h"
 #include "ros/markers.h"
-#include "ros/newest_estimate.h"
+#include "ros/node_parameters.h"
 
 namespace live_stiffness {
-
-struct TipHandleOptions {
-  bool enabled = true;
-  double force_per_m = 20.0;       // N of force for each m the handle is dragged, and of the arrow drawn
-  double moment_per_rad = 0.01;    // N m of moment for each rad the handle is turned
-};
 
 class TipHandle {
  public:
@@ -35,16 +28,14 @@ class TipHandle {
 
   // Serves the interactive marker on ~tip_marker, and publishes the ghost on `markers`.
   TipHandle(const ros::NodeHandle& private_node, const MarkerStyle& style,
-            const TipHandleOptions& options, const ros::Publisher& markers, AskNewest newest);
+            const TipHandleOptions& options, const ros::Publisher& markers, GetSnapshot get_snapshot);
   TipHandle(const TipHandle&) = delete;  // callbacks refer to it
 
   // Lets the handle follow the tip, or answers for the newest estimate. Call at the rate of the markers: dragging only
-  // moves the handle, so that questions do not pile up. Answers take at most a fifth of the time. In one thread, any.
+  // moves the handle, so that questions do not pile up. Answers take at most a fifth of the time.
   void update();
 
  private:
-  // Has update() do it.
-  void later(std::function<void()> action);
   void drag(const visualization_msgs::InteractiveMarkerFeedback& feedback);
   void choose(Question question);
   void letGo();
@@ -59,8 +50,8 @@ class TipHandle {
   MarkerStyle style_;
   TipHandleOptions options_;
   ros::Publisher markers_;
-  AskNewest newest_;
-  OwnSolver solver_;
+  GetSnapshot get_snapshot_;
+  ModelWorkspace solver_;
   Question question_ = Question::kForceAtPosition;
   std::optional<Pose> dragged_;  // where the handle was left, base axes; none: it follows the tip
   Wrench wrench_ = Wrench::Zero();  // asked about, kDeflectionUnderWrench
@@ -71,11 +62,8 @@ class TipHandle {
   };
   std::optional<Asked> asked_;  // what ghost_ answers
   Ghost ghost_;
-  ros::WallTime next_answer_;    // not before, so that hard questions leave the thread to the live estimate
+  ros::WallTime next_answer_;    // not before, so that hard questions leave time for all else
   bool is_inserted_ = false;     // rviz knows the handle with the controls of the question
-
-  std::mutex waiting_mutex_;  // the server's own is held when it calls back, so nothing else may be locked under it
-  std::vector<std::function<void()>> waiting_;
 
   interactive_markers::InteractiveMarkerServer server_;
   interactive_markers::MenuHandler menu_;

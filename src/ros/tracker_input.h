@@ -1,56 +1,56 @@
 #pragma once
 // Measured tip pose from the tracker's topic or from tf, brought to the base frame by the registration.
 
-#include <diagnostic_updater/diagnostic_updater.h>
-#include <ros/node_handle.h>
-#include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
-
-#include <functional>
 #include <memory>
 #include <optional>
 
+#include "ros/any_type_subscriber.h"
 #include "ros/conversions.h"
-#include "ros/input_watch.h"
+#include "ros/input_status.h"
 #include "ros/node_parameters.h"
 
 namespace live_stiffness {
 
+// What a tracker measured.
+struct TipMeasurement {
+  Pose X_AS;  // of the sensor, as the tracker gives it
+  Pose X_BT;  // of the tip, by the registration
+  ros::Time stamp;
+};
+
 class TrackerInput {
  public:
-  // X_AS: of the sensor, as the tracker gives it; measured_X_BT: of the tip, by the registration.
-  using OnTip = std::function<void(const Pose& X_AS, const Pose& measured_X_BT, const ros::Time& stamp)>;
+  // Looks the sensor up in tf if ~aurora_tf_frame is set. parameters must outlive the input.
+  TrackerInput(const ros::NodeHandle& node, const NodeParameters& parameters);
+  ~TrackerInput();
 
-  // Calls on_tip with each usable measurement. parameters must outlive the input.
-  TrackerInput(const ros::NodeHandle& node, const NodeParameters& parameters, OnTip on_tip);
+  // The measurement of a message; none if it cannot be used.
+  std::optional<TipMeasurement> read(const AnyMessage& message);
+  // The newest in tf; none if there is no new one, or it cannot be used.
+  std::optional<TipMeasurement> lookUp();
+  bool usesTf() const { return tf_ != nullptr; }
 
-  // The newest measured pose of T in B, if it is not older than pose_timeout and the tracker has not lost its sensor.
+  // The newest measured pose of T in B, if it is not older than ~pose_timeout_s and the tracker has not lost its sensor.
   std::optional<Pose> freshTip() const;
-  // True if the tracker has said the same for longer than pose_timeout: it has lost its sensor.
+  // True if the tracker gives the same pose for longer than ~pose_timeout_s: it has lost its sensor.
   bool repeatsItself() const { return unchangedFor() > parameters_.pose_timeout; }
-  // Call now and then: a subscriber keeps the type of its first publisher, so it is renewed when that one is gone.
-  void tend();
-  // That looks up poses given by tf; empty if they come on a topic.
-  const ros::Timer& tfTimer() const { return tf_timer_; }
+  InputStatus& status() { return status_; }
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
  private:
-  void subscribe();
-  void onTfPoll(const ros::TimerEvent&);
-  double unchangedFor() const { return (ros::Time::now() - last_change_).toSec(); }  // s
-  void take(const Reading<TrackedPose>& reading);
+  struct Tf;
 
-  ros::NodeHandle node_;
+  double unchangedFor() const { return (ros::Time::now() - last_change_).toSec(); }  // s
+  std::optional<TipMeasurement> accept(const Parsed<TrackedPose>& parsed);
+  // Why the pose cannot be used; empty: it can.
+  std::string errorOf(const TrackedPose& tracked, const Pose& X_BT) const;
+
   const NodeParameters& parameters_;
-  OnTip on_tip_;
-  InputWatch watch_;
-  Pose X_AS_, X_BT_;
-  ros::Time last_change_;  // when X_AS last changed: a tracker that repeats itself has lost its sensor
+  InputStatus status_;
+  Pose X_AS_, X_BT_;        // newest
+  ros::Time last_change_;   // when X_AS_ last changed
   ros::Time last_tf_stamp_;
-  ros::Subscriber subscriber_;
-  ros::Timer tf_timer_;
-  tf2_ros::Buffer tf_buffer_;
-  std::unique_ptr<tf2_ros::TransformListener> tf_listener_;
+  std::unique_ptr<Tf> tf_;  // none: poses come on a topic
 };
 
 }  // namespace live_stiffness

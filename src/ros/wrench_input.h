@@ -1,40 +1,44 @@
 #pragma once
 // A known external wrench on the body that the robot moves, from a topic, in the axes of the base or of the body.
 
-#include <ros/node_handle.h>
-
-#include <functional>
+#include <optional>
 #include <string>
 
 #include "ros/conversions.h"
-#include "ros/input_watch.h"
+#include "ros/input_status.h"
 
 namespace live_stiffness {
 
 class WrenchInput {
  public:
-  using NewestPose = std::function<const Pose*()>;  // of the body in the base frame; nullptr: not known yet
-  using OnWrench = std::function<void(const Wrench& wrench)>;
+  // timeout: s without a message after which the wrench counts as zero; 0: never.
+  WrenchInput(const std::string& topic, FrameNames frames, double timeout)
+      : frames_(std::move(frames)), timeout_(timeout), status_(topic) {}
 
-  // Calls on_wrench with [f; m] in base axes, and with zero after `timeout` s without a message; 0: never.
-  WrenchInput(ros::NodeHandle node, const std::string& topic, FrameNames frames, double timeout,
-              NewestPose newest_pose, OnWrench on_wrench);
-  WrenchInput(const WrenchInput&) = delete;  // callbacks refer to it
-
-  // Call now and then: lets the last wrench expire.
-  void tend();
+  // [f; m] in base axes. None if the message cannot be used. X_BT: of the body in the base frame; nullptr: not known yet.
+  std::optional<Wrench> read(const geometry_msgs::WrenchStamped& message, const Pose* X_BT) {
+    const Parsed<Wrench> wrench = readWrench(message, frames_, X_BT);
+    if (!wrench.ok()) {
+      status_.reject(wrench.error);
+      return std::nullopt;
+    }
+    status_.accept(ros::Time());  // timed by its arrival
+    return wrench.value;
+  }
+  // True once when the last wrench is older than the timeout: it is zero from then on. To be called now and then.
+  bool expires() {
+    if (timeout_ <= 0.0 || !status_.hasMessage() || status_.age() <= timeout_) return false;
+    ROS_WARN("%s: nothing for %g s, now taken as zero", status_.name().c_str(), timeout_);
+    status_.restart();
+    return true;
+  }
   // What was wrong with the newest message, with the name of the topic; empty: nothing.
-  std::string fault() const;
+  std::string error() const { return status_.error().empty() ? "" : status_.name() + ": " + status_.error(); }
 
  private:
-  void onMessage(const geometry_msgs::WrenchStamped::ConstPtr& message);
-
   FrameNames frames_;
   double timeout_;
-  NewestPose newest_pose_;
-  OnWrench on_wrench_;
-  InputWatch watch_;
-  ros::Subscriber subscriber_;
+  InputStatus status_;
 };
 
 }  // namespace live_stiffness

@@ -27,15 +27,15 @@ void checkArrays(const topic_tools::ShapeShifter& message) {
   for (const bool absolute : {false, true}) {
     PressureFormat format;
     format.absolute = absolute;
-    const Reading<Pressures> pressures = readPressures(message, format);
+    const Parsed<Pressures> pressures = readPressures(message, format);
     require(!pressures.ok() || pressures.value.allFinite(), "pressures are finite");
   }
-  const Reading<Eigen::VectorXd> lengths = readRodLengths(message, 1e-3);
+  const Parsed<Eigen::VectorXd> lengths = readRodLengths(message, 1e-3);
   require(!lengths.ok() || lengths.value.allFinite(), "lengths are finite");
 }
 
 void checkPose(const topic_tools::ShapeShifter& message) {
-  const Reading<TrackedPose> reading = readPose(message, 1e-3);
+  const Parsed<TrackedPose> reading = readPose(message, 1e-3);
   if (!reading.ok()) return;
   const Pose& X = reading.value.pose;
   require(X.p.allFinite(), "positions are finite");

@@ -78,7 +78,7 @@ class CommandsTest : public ::testing::Test {
   ros::Publisher pressures_;
 };
 
-// roscpp decodes a message once for all subscribers of a process.
+// They are subscribers of one process, which roscpp connects once.
 TEST_F(CommandsTest, NodeletsOfOneManagerHearTheSameMessages) {
   Watched twin("/twin");
   ASSERT_TRUE(publishUntil([&] { return twin.solvedFor(bent_); }));

@@ -37,7 +37,7 @@ TEST(Conversions, PressuresGoThereAndBack) {
   Pressures pressures(3);
   pressures << 1.5e5, -2e4, 0.125;
   const auto reading = readPressures(onTheWire(toPressures(pressures, ros::Time(12.5))), PressureFormat());
-  ASSERT_TRUE(reading.ok()) << reading.fault;
+  ASSERT_TRUE(reading.ok()) << reading.error;
   EXPECT_EQ(reading.value, pressures);
   EXPECT_EQ(reading.stamp, ros::Time(12.5));
 }
@@ -71,16 +71,16 @@ TEST(Conversions, UnitsOfPressure) {
   EXPECT_EQ(pascalsPerUnit("atm"), 0.0);
 }
 
-TEST(Conversions, BadPressuresAreFaultsThatNameTheChannel) {
+TEST(Conversions, BadPressuresAreErrorsThatNameTheChannel) {
   std_msgs::Float64MultiArray message;
   message.data = {0.0, kNaN};
-  EXPECT_NE(readPressures(onTheWire(message), PressureFormat()).fault.find("channel 2"), std::string::npos);
+  EXPECT_NE(readPressures(onTheWire(message), PressureFormat()).error.find("channel 2"), std::string::npos);
   message.data = {-5.0, 1.0};
   PressureFormat absolute;
   absolute.absolute = true;
-  EXPECT_NE(readPressures(onTheWire(message), absolute).fault.find("negative"), std::string::npos);
+  EXPECT_NE(readPressures(onTheWire(message), absolute).error.find("negative"), std::string::npos);
   EXPECT_TRUE(readPressures(onTheWire(message), PressureFormat()).ok()) << "a gauge pressure may be negative";
-  EXPECT_NE(readPressures(onTheWire(std_msgs::String()), PressureFormat()).fault.find("std_msgs/String"),
+  EXPECT_NE(readPressures(onTheWire(std_msgs::String()), PressureFormat()).error.find("std_msgs/String"),
             std::string::npos);
 }
 
@@ -95,8 +95,8 @@ topic_tools::ShapeShifter withBytes(std::vector<uint8_t> bytes, const std::strin
   return shape;
 }
 
-TEST(Conversions, MessagesCutShortAreFaults) {
-  EXPECT_NE(readPressures(withBytes<ChamberPressures>({1, 2, 3}), PressureFormat()).fault.find("damaged"),
+TEST(Conversions, MessagesCutShortAreErrors) {
+  EXPECT_NE(readPressures(withBytes<ChamberPressures>({1, 2, 3}), PressureFormat()).error.find("damaged"),
             std::string::npos);
   EXPECT_FALSE(readRodLengths(withBytes<RodLengths>({}), 1.0).ok());
   EXPECT_FALSE(readPose(withBytes<geometry_msgs::PoseStamped>({1, 2, 3}), 1.0).ok());
@@ -104,17 +104,7 @@ TEST(Conversions, MessagesCutShortAreFaults) {
   EXPECT_FALSE(readPose(withBytes<geometry_msgs::TransformStamped>({}), 1.0).ok());
 }
 
-TEST(Conversions, IsWholeUnlessCutShortOrOfATypeThatIsNotRead) {
-  EXPECT_TRUE(isWhole(onTheWire(ChamberPressures())));
-  EXPECT_TRUE(isWhole(onTheWire(RodLengths())));
-  EXPECT_TRUE(isWhole(onTheWire(geometry_msgs::PoseStamped())));
-  EXPECT_FALSE(isWhole(onTheWire(std_msgs::String())));
-  EXPECT_FALSE(isWhole(withBytes<ChamberPressures>({1, 2, 3})));
-  EXPECT_FALSE(isWhole(withBytes<RodLengths>({1, 2, 3})));
-  EXPECT_FALSE(isWhole(withBytes<geometry_msgs::PoseStamped>({1, 2, 3})));
-}
-
-TEST(Conversions, MessagesThatClaimFourThousandMillionNumbersAreFaults) {
+TEST(Conversions, MessagesThatClaimFourThousandMillionNumbersAreErrors) {
   // Sequence, stamp, empty frame, then the length of the array; the dimensions of a MultiArray come first.
   std::vector<uint8_t> stamped(16, 0), dimensions;
   for (auto* bytes : {&stamped, &dimensions}) bytes->insert(bytes->end(), 4, 0xff);
@@ -124,9 +114,9 @@ TEST(Conversions, MessagesThatClaimFourThousandMillionNumbersAreFaults) {
   EXPECT_FALSE(readPressures(withBytes<std_msgs::Float32MultiArray>(dimensions), PressureFormat()).ok());
 }
 
-TEST(Conversions, AnotherVersionOfTheTypeIsAFault) {
+TEST(Conversions, AnotherVersionOfTheTypeIsAnError) {
   const auto message = withBytes<ChamberPressures>({}, "0123456789abcdef0123456789abcdef");
-  EXPECT_NE(readPressures(message, PressureFormat()).fault.find("version of live_stiffness/ChamberPressures"),
+  EXPECT_NE(readPressures(message, PressureFormat()).error.find("version of live_stiffness/ChamberPressures"),
             std::string::npos);
 }
 
@@ -139,7 +129,7 @@ TEST(Conversions, PoseGoesThereAndBackThroughAllThreeTypes) {
   const auto transform = toTransform(X, ros::Time(3.0), "/aurora", "tip");
   for (const auto& reading : {readPose(onTheWire(stamped), 1.0), readPose(onTheWire(covariance), 1.0),
                               readPose(onTheWire(transform), 1.0)}) {
-    ASSERT_TRUE(reading.ok()) << reading.fault;
+    ASSERT_TRUE(reading.ok()) << reading.error;
     EXPECT_LT((reading.value.pose.R - X.R).norm(), 1e-15);
     EXPECT_EQ(reading.value.pose.p, X.p);
     EXPECT_EQ(reading.value.frame, "aurora");
@@ -148,7 +138,7 @@ TEST(Conversions, PoseGoesThereAndBackThroughAllThreeTypes) {
   EXPECT_NEAR(readPose(onTheWire(stamped), 1e-3).value.pose.p.z(), 50e-6, 1e-18) << "millimetres";
 }
 
-TEST(Conversions, UnusablePosesAreFaults) {
+TEST(Conversions, UnusablePosesAreErrors) {
   auto zero = toPoseStamped(somePose(), ros::Time(1.0), "aurora"), far = zero, not_finite = zero;
   zero.pose.orientation.w = zero.pose.orientation.x = zero.pose.orientation.y = zero.pose.orientation.z = 0.0;
   far.pose.orientation.w += 1.0;
@@ -192,13 +182,13 @@ TEST(Conversions, RodLengthsAreReadInTheirUnit) {
   std_msgs::Float64MultiArray bare;
   bare.data = stamped.length;
   for (const auto& reading : {readRodLengths(onTheWire(stamped), 1e-3), readRodLengths(onTheWire(bare), 1e-3)}) {
-    ASSERT_TRUE(reading.ok()) << reading.fault;
+    ASSERT_TRUE(reading.ok()) << reading.error;
     ASSERT_EQ(reading.value.size(), 2);
     EXPECT_NEAR(reading.value[1], 0.41, 1e-15);
   }
   bare.data[1] = kNaN;
-  EXPECT_NE(readRodLengths(onTheWire(bare), 1.0).fault.find("rod 2"), std::string::npos);
-  EXPECT_NE(readRodLengths(onTheWire(std_msgs::String()), 1.0).fault.find("live_stiffness/RodLengths"),
+  EXPECT_NE(readRodLengths(onTheWire(bare), 1.0).error.find("rod 2"), std::string::npos);
+  EXPECT_NE(readRodLengths(onTheWire(std_msgs::String()), 1.0).error.find("live_stiffness/RodLengths"),
             std::string::npos);
 }
 
@@ -208,31 +198,31 @@ TEST(Conversions, WrenchIsTurnedFromTheAxesOfItsFrameToBaseAxes) {
   Wrench wrench;
   wrench << 1.0, -2.0, 3.0, 0.1, 0.2, -0.3;
   const auto in_base = readWrench(toWrenchStamped(wrench, ros::Time(1.0), "/base"), frames, nullptr);
-  ASSERT_TRUE(in_base.ok()) << in_base.fault;
+  ASSERT_TRUE(in_base.ok()) << in_base.error;
   EXPECT_EQ(in_base.value, wrench);
   const auto in_tip = readWrench(toWrenchStamped(wrench, ros::Time(1.0), "tip"), frames, &X_BT);
-  ASSERT_TRUE(in_tip.ok()) << in_tip.fault;
+  ASSERT_TRUE(in_tip.ok()) << in_tip.error;
   EXPECT_LT((linear(in_tip.value) - X_BT.R * linear(wrench)).norm(), 1e-15);
   EXPECT_LT((angular(in_tip.value) - X_BT.R * angular(wrench)).norm(), 1e-15);
-  EXPECT_NE(readWrench(toWrenchStamped(wrench, ros::Time(1.0), "tip"), frames, nullptr).fault.find("not known"),
+  EXPECT_NE(readWrench(toWrenchStamped(wrench, ros::Time(1.0), "tip"), frames, nullptr).error.find("not known"),
             std::string::npos);
-  EXPECT_NE(readWrench(toWrenchStamped(wrench, ros::Time(1.0), "camera"), frames, &X_BT).fault.find("camera"),
+  EXPECT_NE(readWrench(toWrenchStamped(wrench, ros::Time(1.0), "camera"), frames, &X_BT).error.find("camera"),
             std::string::npos);
   wrench[4] = kNaN;
   EXPECT_FALSE(readWrench(toWrenchStamped(wrench, ros::Time(1.0), "base"), frames, nullptr).ok());
 }
 
-TEST(Conversions, StandingTellsBadInputFromSilence) {
+TEST(Conversions, StatusTellsBadInputFromSilence) {
   StiffnessEstimate message;
-  setStanding(SolveCode::kOk, "", false, 0.5, "pressures", message);
+  setStatus(SolveCode::kOk, "", false, 0.5, "pressures", message);
   EXPECT_FALSE(message.stale);
   EXPECT_TRUE(message.message.empty());
-  setStanding(SolveCode::kOk, "", true, 0.5, "pressures", message);
+  setStatus(SolveCode::kOk, "", true, 0.5, "pressures", message);
   EXPECT_TRUE(message.stale);
   EXPECT_EQ(message.message, "no pressures for more than 0.5 s");
-  setStanding(SolveCode::kOk, "5 channels: must be 6", false, 0.5, "pressures", message);
+  setStatus(SolveCode::kOk, "5 channels: must be 6", false, 0.5, "pressures", message);
   EXPECT_EQ(message.status, StiffnessEstimate::INVALID_INPUT);
-  setStanding(SolveCode::kUnstable, "would topple", true, 0.5, "pressures", message);
+  setStatus(SolveCode::kUnstable, "would topple", true, 0.5, "pressures", message);
   EXPECT_EQ(message.status, StiffnessEstimate::UNSTABLE);
   EXPECT_EQ(message.message, "would topple");
 }

@@ -25,7 +25,7 @@ class MarkersTest : public ::testing::Test {
   }
 
   MarkerArray draw(const Estimate& estimate, bool stale = false) const {
-    return makeMarkers(estimate, estimator_.sampleBackbone(10), Pose(), stale, style_, ros::Time(1.0));
+    return makeMarkers(estimate, Pose(), stale, style_, ros::Time(1.0));
   }
   MarkerArray draw() const { return draw(*estimator_.estimate()); }
 
@@ -56,8 +56,8 @@ TEST_F(MarkersTest, TipEllipsoidHasTheFullAxesOfTheTangentCompliance) {
 TEST_F(MarkersTest, EveryCallGivesTheSameIdsSoThatMarkersReplaceOneAnother) {
   std::set<std::pair<std::string, int>> first, second;
   for (const Marker& marker : draw().markers) EXPECT_TRUE(first.emplace(marker.ns, marker.id).second) << marker.ns;
-  const MarkerArray without_tracker = makeMarkers(*estimator_.estimate(), estimator_.sampleBackbone(10), std::nullopt,
-                                                  true, style_, ros::Time(2.0));
+  const MarkerArray without_tracker =
+      makeMarkers(*estimator_.estimate(), std::nullopt, true, style_, ros::Time(2.0));
   for (const Marker& marker : without_tracker.markers) second.emplace(marker.ns, marker.id);
   EXPECT_EQ(first, second);
   EXPECT_EQ(find(without_tracker, "tip", 1).action, Marker::DELETE) << "no measured tip without a tracker";
@@ -68,7 +68,7 @@ TEST_F(MarkersTest, TubeFollowsTheBackboneAndIsColouredByCompliance) {
   const Marker& tube = find(array, "backbone", 0);
   ASSERT_EQ(tube.points.size() % 3, 0u);
   ASSERT_EQ(tube.points.size(), tube.colors.size());
-  const std::vector<Station> samples = estimator_.sampleBackbone(10);
+  const std::vector<Station>& samples = estimator_.estimate()->shape;
   for (const auto& point : tube.points) {
     double nearest = 1.0;
     for (const Station& sample : samples)
@@ -102,8 +102,7 @@ TEST_F(MarkersTest, EllipsoidsOfEachSegmentHaveTheirOwnColour) {
   StiffnessEstimator two(loadSceneFile(std::string(SOURCE_DIR) + "/config/scenes/paper_two_segments.yaml"),
                          ModelOptions(), EstimatorOptions());
   two.setPressures(Pressures::Constant(12, 20e3));
-  const MarkerArray array =
-      makeMarkers(*two.estimate(), two.sampleBackbone(5), std::nullopt, false, style_, ros::Time());
+  const MarkerArray array = makeMarkers(*two.estimate(), std::nullopt, false, style_, ros::Time());
   std::set<std::tuple<float, float, float>> of_first, of_second;
   for (int i = 0; i < 10; ++i) {
     const auto& shade = find(array, "ellipsoids", i).color;

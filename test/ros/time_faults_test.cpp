@@ -2,9 +2,6 @@
 
 #include <rosgraph_msgs/Clock.h>
 
-#include <atomic>
-
-#include "ros/clock_watch.h"
 #include "support/played_rig.h"
 
 namespace live_stiffness {
@@ -61,25 +58,6 @@ TEST_F(TimeFaults, BagInALoop) {
   EXPECT_TRUE(run(1.0, nullptr, [&] { return is("Clock", kWarn, "jumped back"); })) << text("Clock");
   EXPECT_TRUE(run(1.0, &other_, [&] { return allWell(other_); })) << text("Clock") << text("Pressures") << text("Tracker");
   EXPECT_LE(watched_.estimate->header.stamp.toSec(), now_) << "a stamp of the new round";
-}
-
-// As those of roscpp that have missed the jump.
-TEST_F(TimeFaults, TimersThatWaitForTheOldTimeGoOn) {
-  std::atomic<int> fired{0};
-  std::vector<ros::Timer> timers = {node_.createTimer(ros::Duration(0.02), [&](const ros::TimerEvent&) { ++fired; })};
-  ASSERT_TRUE(run(1.0, nullptr, [&] { return fired > 0; }));
-  ClockWatch watch;
-  diagnostic_updater::DiagnosticStatusWrapper status;
-  watch.diagnose(status);
-  timers[0].stop();
-  watch.restartAfterJump(timers);
-  set(now_ - 600.0);
-  ASSERT_TRUE(waitFor([&] { return ros::Time::now().toSec() <= now_; }));
-  fired = 0;
-  EXPECT_FALSE(timers[0].hasStarted()) << "no jump had been seen";
-  watch.diagnose(status);
-  watch.restartAfterJump(timers);
-  EXPECT_TRUE(run(1.0, nullptr, [&] { return fired > 1; }));
 }
 
 TEST_F(TimeFaults, Pause) {

@@ -15,6 +15,8 @@ struct EstimatorOptions {
   std::vector<double> fractions = {0.5, 0.6, 0.7, 0.8, 1.0};  // of each segment, where stations are evaluated, 0 to 1
 };
 
+constexpr int kShapeSections = 20;  // of a segment, between the stations of an estimate's shape
+
 // Everything known about the robot at one set of pressures.
 struct Estimate {
   Pressures pressures;                  // measured, gauge, Pa, one per chamber
@@ -24,6 +26,7 @@ struct Estimate {
   Matrix6 stiffness = Matrix6::Zero();  // inverse of solution.compliance
   Ellipsoid tip_ellipsoid;              // of the translational block of solution.compliance, half axes in m/N
   std::vector<Station> stations;        // fractions of segment 1, then of segment 2, ...
+  std::vector<Station> shape;           // kShapeSections + 1 evenly spaced ones of each segment, base to tip
   std::vector<double> stretch;          // of each segment
   double solve_time = 0.0;              // s
 };
@@ -47,7 +50,8 @@ class StiffnessEstimator {
   Outcome setPressures(PressuresRef pressures);
   // New tip wrench (base axes): solves if it differs from the one of the last solve and pressures are known.
   Outcome setTipWrench(const Wrench& tip_wrench);
-  // Solves for the newest pressures and wrench, whatever they are. kUnchanged when no pressures are known yet.
+  // Solves for the newest pressures and wrench, whatever they are. kUnchanged when no pressures are known yet. Like the
+  // above, never allocates after the first two solves.
   Outcome solve();
 
   // The last good estimate; nullptr before the first.
@@ -60,16 +64,14 @@ class StiffnessEstimator {
   std::string statusText() const { return status_.ok() ? "" : model_.describe(status_); }
   const StiffnessModel& model() const { return model_; }
 
-  // The shape of the newest solve, as above. Empty unless status() is ok and there is an estimate.
-  std::vector<Station> sampleBackbone(int per_segment) const;
-
  private:
   Outcome solveIfMoved();
+  void readStations(std::vector<StationPlan>& plans, std::vector<Station>& stations);
 
   StiffnessModel model_;
   EstimatorOptions options_;
   StiffnessWorkspace workspace_;
-  std::vector<StationPlan> plans_;  // one per segment
+  std::vector<StationPlan> plans_, shape_plans_;  // one per segment
   SceneCreep creep_;
   Pressures newest_pressures_, newest_effective_, solved_effective_;
   Wrench newest_wrench_ = Wrench::Zero(), solved_wrench_ = Wrench::Zero();

@@ -1,4 +1,4 @@
-#include "ros/parallel_markers.h"
+#include "programs/parallel_markers.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #pragma once
-// What a node knows about its robot at the moment, for those who ask it questions from another thread.
+// What a node knows about its robot at the moment, for other threads.
 
 #include <ros/time.h>
 
@@ -10,25 +10,25 @@
 
 namespace live_stiffness {
 
-struct NewestEstimate {
+struct EstimateSnapshot {
   std::shared_ptr<const StiffnessModel> model;  // another one after ~reload
   std::shared_ptr<const Estimate> estimate;     // a copy of the last good one; nullptr before the first
   ros::Time stamp;                              // of its pressures
   bool stale = false;                           // it is not that of the newest pressures
 };
-using AskNewest = std::function<NewestEstimate()>;
+using GetSnapshot = std::function<EstimateSnapshot()>;
 
-// The newest model with a workspace of one's own, so that the live solver stays as it is.
-class OwnSolver {
+// The newest model with a workspace of its own, for solves that must leave the live estimate as it is.
+class ModelWorkspace {
  public:
   // True if it is another model than before.
-  bool follow(const std::shared_ptr<const StiffnessModel>& newest) {
-    if (newest == model_) return false;
-    model_ = newest;
+  bool setModel(const std::shared_ptr<const StiffnessModel>& model) {
+    if (model == model_) return false;
+    model_ = model;
     workspace_.reset(new StiffnessWorkspace(model_->makeWorkspace()));
     return true;
   }
-  // Only after follow().
+  // Only after setModel().
   const StiffnessModel& model() const { return *model_; }
   StiffnessWorkspace& workspace() const { return *workspace_; }
 

@@ -1,0 +1,33 @@
+#pragma once
+// Status of ROS time, for diagnostics: simulated time that has not begun, stands still or jumped back.
+
+#include <diagnostic_updater/DiagnosticStatusWrapper.h>
+#include <ros/time.h>
+
+namespace live_stiffness {
+
+class ClockStatus {
+ public:
+  // To be called by wall time: where ROS time stands still, none of its timers fires.
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+    using diagnostic_msgs::DiagnosticStatus;
+    const ros::WallDuration shown(2.0), longest(0.5);
+    const ros::Duration jump(-0.5);  // less is a wall clock being corrected
+    const ros::Time now = ros::Time::now();
+    const ros::WallTime wall = ros::WallTime::now();
+    if (now - last_ < jump) jumped_ = wall;
+    if (now != last_) moved_ = wall;
+    last_ = now;
+    if (now.isZero()) status.summary(DiagnosticStatus::WARN, "simulated time has not begun: nothing publishes /clock");
+    else if (wall - moved_ > longest) status.summary(DiagnosticStatus::WARN, "simulated time stands still");
+    else if (wall - jumped_ < shown) status.summary(DiagnosticStatus::WARN, "time jumped back: older input is forgotten");
+    else status.summary(DiagnosticStatus::OK, "ok");
+    status.add("simulated", !ros::Time::isSystemTime());
+  }
+
+ private:
+  ros::Time last_;                // at the last call
+  ros::WallTime jumped_, moved_;  // when it jumped back, and when it was last seen to advance
+};
+
+}  // namespace live_stiffness

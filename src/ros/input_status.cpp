@@ -1,0 +1,155 @@
+#include "ros/input_status.h"
+
+#include <diagnostic_updater/DiagnosticStatusWrapper.h>
+#include <ros/console.h>
+
+#include <cmath>
+#include <utility>
+
+namespace live_stiffness {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+
+constexpr double kForeign = 10.0;   // s behind ROS time; a device's own clock
+constexpr double kFuture = 0.5;     // s ahead of ROS time
+constexpr double kReordered = 1.0;  // s
+constexpr double kJump = 0.5;       // s back; less is a wall clock being corrected
+
+// True, and the clock restarted, if `last` is at least `seconds` ago. Not ROS_ERROR_THROTTLE: it shares one clock between
+// all inputs, and stops when simulated time does.
+bool isDue(ros::WallTime& last, double seconds) {
+  const ros::WallTime now = ros::WallTime::now();
+  if (now - last < ros::WallDuration(seconds)) return false;
+  last = now;
+  return true;
+}
+
+}  // namespace
+
+std::optional<ros::Time> InputStatus::accept(const ros::Time& stamp, const ros::Time& now) {
+  checkClock(now);
+  if (!arrivesInOrder(stamp)) return std::nullopt;
+  const double interval = accepted_ > 0 ? (now - last_accepted_).toSec() : 0.0;
+  if (interval > 0.0) {
+    const double blend = rate_ > 0.0 ? 0.1 : 1.0;
+    rate_ = 1.0 / ((1.0 - blend) * (rate_ > 0.0 ? 1.0 / rate_ : 0.0) + blend * interval);
+  }
+  last_accepted_ = now;
+  last_stamp_ = stampFor(stamp, now);
+  ++accepted_;
+  error_.clear();
+  return last_stamp_;
+}
+
+void InputStatus::reject(const std::string& error) {
+  error_ = error;
+  logError(error);
+}
+
+void InputStatus::logError(const std::string& error) {
+  ++rejected_;
+  if (isDue(error_logged_, 1.0)) ROS_ERROR_STREAM(name_ << ": " << error);
+}
+
+ros::Time InputStatus::stampFor(const ros::Time& stamp, const ros::Time& now) {
+  foreign_offset_ = 0.0;
+  if (stamp.isZero()) return now;
+  if (now.isZero()) return stamp;  // simulated time has not begun: the first message overtook /clock
+  const double offset = (stamp - now).toSec();
+  if (offset >= -kForeign && offset <= kFuture) return stamp;
+  foreign_offset_ = offset;
+  if (isDue(stamp_logged_, 60.0))
+    ROS_WARN_STREAM(name_ << ": stamps are " << offset
+                          << " s from ROS time (a device's own clock?); using the time of arrival");
+  return now;
+}
+
+void InputStatus::countLost(const std::string& publisher, uint32_t sequence) {
+  constexpr uint32_t kRenumbered = 100000;  // more at once is no loss
+  const uint32_t step = sequence - sequence_;
+  if (publisher == publisher_ && sequence > sequence_ && step < kRenumbered) lost_ += step - 1;
+  publisher_ = publisher;
+  sequence_ = sequence;
+}
+
+bool InputStatus::arrivesInOrder(const ros::Time& stamp) {
+  const double step = last_own_stamp_.isZero() || stamp.isZero() ? 0.0 : (stamp - last_own_stamp_).toSec();
+  if (step < 0.0 && step >= -kReordered) {
+    ++out_of_order_;
+    overtaken_ = ros::WallTime::now();
+    return false;
+  }
+  last_own_stamp_ = stamp;
+  return true;
+}
+
+void InputStatus::checkClock(const ros::Time& now) {
+  if (accepted_ > 0 && (now - last_accepted_).toSec() < -kJump) restart();
+}
+
+double InputStatus::age(const ros::Time& now) const {
+  constexpr double kNever = 1e9;
+  if (accepted_ == 0 || (now - last_accepted_).toSec() < -kJump) return kNever;
+  return (now - last_stamp_).toSec();
+}
+
+std::string InputStatus::warning() const {
+  if (foreign_offset_ != 0.0)
+    return "stamps are not in ROS time, but " + std::to_string(std::abs(foreign_offset_)) + " s " +
+           (foreign_offset_ > 0.0 ? "ahead" : "behind") + "; the time of arrival is used";
+  if (ros::WallTime::now() - overtaken_ < ros::WallDuration(2.0))
+    return "messages arrive out of order: " + std::to_string(out_of_order_) + " left out so far";
+  return "";
+}
+
+long InputStatus::newlyLost() { return lost_ - std::exchange(lost_before_, lost_); }
+
+void InputStatus::addCounts(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+  status.add("rate (Hz)", rate_);
+  status.add("accepted", accepted_);
+  status.add("rejected", rejected_);
+  status.add("lost", lost_);
+  status.add("out of order", out_of_order_);
+}
+
+void InputStatus::restart() {
+  last_accepted_ = last_stamp_ = last_own_stamp_ = ros::Time();
+  accepted_ = 0;
+  rate_ = 0.0;
+  error_.clear();
+}
+
+bool ArrayStatus::accept(Parsed<Eigen::VectorXd>& parsed, const std::string& publisher) {
+  if (parsed.sequence) countLost(publisher, *parsed.sequence);
+  if (parsed.ok() && parsed.value.size() != settings_.count)
+    parsed.error = std::to_string(parsed.value.size()) + " " + settings_.counted + ": must be " +
+                   std::to_string(settings_.count) + settings_.hint;
+  if (!parsed.ok()) {
+    reject(parsed.error);
+    return false;
+  }
+  const std::optional<ros::Time> stamp = InputStatus::accept(parsed.stamp);
+  parsed.stamp = stamp.value_or(ros::Time());
+  return stamp.has_value();
+}
+
+void ArrayStatus::diagnose(const std::string& solver_error, diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const long lost = newlyLost();
+  if (!error().empty() || !solver_error.empty())
+    status.summary(DiagnosticStatus::ERROR, error().empty() ? solver_error : error());
+  else if (!hasMessage())
+    status.summary(DiagnosticStatus::ERROR, "no " + settings_.noun + " received yet");
+  else if (isStale())
+    status.summaryf(DiagnosticStatus::ERROR, "%s are stale: %.1f s old", settings_.noun.c_str(), age());
+  else if (!warning().empty())
+    status.summary(DiagnosticStatus::WARN, warning());
+  else if (lost > 0)
+    status.summaryf(DiagnosticStatus::WARN, "%ld messages lost since the last report: they come faster than they are taken",
+                    lost);
+  else
+    status.summary(DiagnosticStatus::OK, "ok");
+  addCounts(status);
+}
+
+}  // namespace live_stiffness

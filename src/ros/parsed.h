@@ -1,0 +1,22 @@
+#pragma once
+// What was read from a message.
+
+#include <ros/time.h>
+
+#include <optional>
+#include <string>
+
+namespace live_stiffness {
+
+// A message as one of the core's types, or the reason why it cannot be used.
+template <class Value>
+struct Parsed {
+  ros::Time stamp;  // zero: the message has none
+  Value value;
+  std::string error;                      // empty: value holds
+  std::optional<uint32_t> sequence = {};  // the publisher's number of the message, if it numbers them
+
+  bool ok() const { return error.empty(); }
+};
+
+}  // namespace live_stiffness
