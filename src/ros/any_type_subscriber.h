@@ -12,8 +12,8 @@ namespace live_stiffness {
 // A message of any type, with the name of its publisher.
 using AnyMessage = ros::MessageEvent<const topic_tools::ShapeShifter>;
 
-// roscpp keeps to the type of the first publisher until it subscribes again: done here when the publishers are gone, so
-// that the next may have another type.
+// roscpp keeps the type of the first publisher until it subscribes again. This class subscribes again when all publishers
+// are gone, so that the next one may have another type.
 class AnyTypeSubscriber {
  public:
   AnyTypeSubscriber() = default;
@@ -35,7 +35,7 @@ class AnyTypeSubscriber {
   void onTimer(const ros::WallTimerEvent&) {
     if (subscriber_.getNumPublishers() > 0) {
       had_publisher_ = true;
-    } else if (had_publisher_ && ros::master::check()) {  // without a master, to subscribe would wait for one
+    } else if (had_publisher_ && ros::master::check()) {  // subscribing without a master would block
       had_publisher_ = false;
       subscriber_.shutdown();  // first: two subscribers of one process share the type
       subscriber_ = node_.subscribe(options_);

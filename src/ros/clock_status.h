@@ -8,11 +8,11 @@ namespace live_stiffness {
 
 class ClockStatus {
  public:
-  // To be called by wall time: where ROS time stands still, none of its timers fires.
+  // Call it from a wall timer: while ROS time stands still, no ros::Timer fires.
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
     using diagnostic_msgs::DiagnosticStatus;
     const ros::WallDuration shown(2.0), longest(0.5);
-    const ros::Duration jump(-0.5);  // less is a wall clock being corrected
+    const ros::Duration jump(-0.5);  // smaller jumps are corrections of the wall clock
     const ros::Time now = ros::Time::now();
     const ros::WallTime wall = ros::WallTime::now();
     if (now - last_ < jump) jumped_ = wall;

@@ -1,5 +1,5 @@
 #pragma once
-// What touches the tip: the estimate of the external wrench, its topics, its picture and its health.
+// Estimate of the external wrench at the tip: its topics, markers and diagnostics.
 
 #include <live_stiffness/TipContact.h>
 #include <ros/node_handle.h>
@@ -22,17 +22,17 @@ class ContactOutput {
   // Advertises ~tip_wrench_estimate and ~tip_contact. parameters must outlive this.
   ContactOutput(ros::NodeHandle private_node, const NodeParameters& parameters);
 
-  // A tracker pose: estimates and publishes. pressures: newest, gauge, Pa, one per chamber; known: wrench at T that the
-  // model is given; measured_X_BT: nullptr if the tracker has lost its sensor, so that it is predicted only.
+  // A tracker pose: estimates and publishes. pressures: newest, gauge, Pa, one per chamber; known: the known wrench
+  // at T; measured_X_BT: nullptr if the tracker has lost its sensor, and then the estimate is only predicted.
   void update(PressuresRef pressures, const Wrench& known, const Pose* measured_X_BT, const ros::Time& stamp);
-  // Forgets the past, as after another registration.
+  // Forgets the past; call it after a change of the registration.
   void reset() { estimator_->reset(); }
   // Another scene or other options.
   void setEstimator(std::unique_ptr<TipWrenchEstimator> estimator) { estimator_ = std::move(estimator); }
 
   // False too when the newest estimate is older than pose_timeout.
   bool inContact() const;
-  // The force at the tip, while in contact.
+  // Arrow of the force at the tip, during contact.
   visualization_msgs::MarkerArray markers(const MarkerStyle& style, const ros::Time& stamp) const;
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
@@ -43,7 +43,7 @@ class ContactOutput {
   const NodeParameters& parameters_;
   std::unique_ptr<TipWrenchEstimator> estimator_;
   ros::Time updated_;  // when the newest estimate was made
-  std::string error_;  // why nothing was estimated from the newest pose; empty: it was
+  std::string error_;  // why the newest pose gave no estimate; empty: it did
   ros::Publisher wrench_publisher_, contact_publisher_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Between ROS messages and the core's types.
+// Conversions between ROS messages and the core's types.
 
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/TransformStamped.h>
@@ -29,7 +29,7 @@ namespace live_stiffness {
 // frame_id of tip_force_torque. Of the simulated rig: at T, with axes of T, in the sense "on the robot".
 constexpr char kForceSensorFrame[] = "tip_force_sensor";
 
-// How a rig writes pressures down.
+// Unit and reference of a rig's pressures.
 struct PressureFormat {
   double unit = 1.0;  // Pa per unit of the message
   bool absolute = false;
@@ -50,7 +50,7 @@ Parsed<Eigen::VectorXd> readRodLengths(const topic_tools::ShapeShifter& message,
 // Gauge pressure (Pa) of one channel.
 Parsed<double> readPressure(const sensor_msgs::FluidPressure& message, const PressureFormat& format);
 
-// Where the tracker saw its sensor: pose in `frame`, which has no leading slash.
+// A tracker pose of the sensor in `frame`, which has no leading slash.
 struct TrackedPose {
   Pose pose;
   std::string frame;
@@ -63,7 +63,7 @@ Parsed<TrackedPose> readPose(const geometry_msgs::TransformStamped& message, dou
 // Errors: as above.
 Parsed<Pose> readPose(const geometry_msgs::Pose& message);
 
-// Frames that a message may name its axes by: the fixed one and, unless empty, that of the body which the robot moves.
+// Frames that a message may refer to: the fixed one and, unless empty, that of the body which the robot moves.
 struct FrameNames {
   std::string base, body;
 };
@@ -92,13 +92,13 @@ ChamberPressures toPressures(PressuresRef pressures, const ros::Time& stamp);
 geometry_msgs::PoseStamped toPoseStamped(const Pose& X, const ros::Time& stamp, const std::string& frame);
 geometry_msgs::WrenchStamped toWrenchStamped(const Wrench& wrench, const ros::Time& stamp, const std::string& frame);
 StiffnessEstimate toEstimate(const Estimate& estimate, const ros::Time& stamp, const std::string& frame);
-// The deflection, as far as it was found; success, message, stale and header stay.
+// The deflection, as far as it was found; success, message, stale and header are not changed.
 void fillDeflection(const DeflectionCheck& check, PredictDeflection::Response& response);
 
-// known: the wrench at T that the model is given; error: what is wrong, empty if nothing.
+// known: the known wrench at T; error: what is wrong, or empty.
 TipContact toTipContact(const TipWrenchEstimate& estimate, const Wrench& known, const std::string& error,
                         const ros::Time& stamp, const std::string& frame);
-// A fit; success, message, applied and saved_to stay.
+// A fit; success, message, applied and saved_to are not changed.
 void fillRegistration(const LiveRegistration& result, Register::Response& response);
 
 // A 6x6 matrix, row by row.
@@ -130,7 +130,7 @@ void setStatus(SolveCode code, const std::string& error, bool is_silent, double 
   message.status = static_cast<uint8_t>(code);
   message.stale = is_silent || !error.empty();
   message.message = error;
-  if (code == SolveCode::kOk && !error.empty()) message.status = Message::INVALID_INPUT;  // it could not even be read
+  if (code == SolveCode::kOk && !error.empty()) message.status = Message::INVALID_INPUT;  // the input could not be read
   if (message.stale && error.empty()) message.message = "no " + inputs + " for more than " + numberText(timeout) + " s";
 }
 geometry_msgs::Twist toTwist(const Twist& twist);

@@ -11,7 +11,7 @@
 namespace live_stiffness {
 namespace {
 
-constexpr double kFarthest = 1000.0;  // m; beyond any tracker's reach, in millimetres too
+constexpr double kFarthest = 1000.0;  // m; outside the range of any tracker, also if it is millimetres
 
 template <class Value>
 Parsed<Value> failed(const std::string& error) {
@@ -24,7 +24,7 @@ std::string damaged(const topic_tools::ShapeShifter& message) {
   return "message is damaged, or of another version of " + message.getDataType();
 }
 
-// A message without arrays; nullptr if its bytes are cut short or belong to another version of the type.
+// A message without arrays; nullptr if bytes are missing, or belong to another version of the type.
 template <class Message>
 boost::shared_ptr<Message> decode(const topic_tools::ShapeShifter& message) {
   try {
@@ -34,9 +34,9 @@ boost::shared_ptr<Message> decode(const topic_tools::ShapeShifter& message) {
   return nullptr;
 }
 
-// The bytes of a message with an array, read one after the other. Not by roscpp's own means: they make room for as many
-// numbers as a message claims before they look whether they are there, and a damaged one may claim 4e9. All functions
-// throw ros::Exception where the bytes end.
+// Reads the bytes of a message with an array. roscpp's own deserialisation allocates memory for the number of entries that a
+// message states before it checks that they are there, and a damaged message may state 4e9. All functions throw
+// ros::Exception when the bytes end too early.
 class ArrayBytes {
  public:
   explicit ArrayBytes(const topic_tools::ShapeShifter& message)

@@ -1,5 +1,5 @@
 #pragma once
-// What a node knows about its robot at the moment, for other threads.
+// The present state of a node, for other threads.
 
 #include <ros/time.h>
 
@@ -11,17 +11,17 @@
 namespace live_stiffness {
 
 struct EstimateSnapshot {
-  std::shared_ptr<const StiffnessModel> model;  // another one after ~reload
+  std::shared_ptr<const StiffnessModel> model;  // changes with ~reload
   std::shared_ptr<const Estimate> estimate;     // a copy of the last good one; nullptr before the first
   ros::Time stamp;                              // of its pressures
   bool stale = false;                           // it is not that of the newest pressures
 };
 using GetSnapshot = std::function<EstimateSnapshot()>;
 
-// The newest model with a workspace of its own, for solves that must leave the live estimate as it is.
+// The newest model with its own workspace, for solves that must not change the live estimate.
 class ModelWorkspace {
  public:
-  // True if it is another model than before.
+  // True if the model has changed.
   bool setModel(const std::shared_ptr<const StiffnessModel>& model) {
     if (model == model_) return false;
     model_ = model;

@@ -14,10 +14,10 @@ using diagnostic_msgs::DiagnosticStatus;
 constexpr double kForeign = 10.0;   // s behind ROS time; a device's own clock
 constexpr double kFuture = 0.5;     // s ahead of ROS time
 constexpr double kReordered = 1.0;  // s
-constexpr double kJump = 0.5;       // s back; less is a wall clock being corrected
+constexpr double kJump = 0.5;       // s back; smaller jumps are corrections of the wall clock
 
-// True, and the clock restarted, if `last` is at least `seconds` ago. Not ROS_ERROR_THROTTLE: it shares one clock between
-// all inputs, and stops when simulated time does.
+// True if `last` is at least `seconds` ago; then sets it to now. ROS_ERROR_THROTTLE would share one clock between all inputs,
+// and would be silent while simulated time stands still.
 bool isDue(ros::WallTime& last, double seconds) {
   const ros::WallTime now = ros::WallTime::now();
   if (now - last < ros::WallDuration(seconds)) return false;
@@ -66,7 +66,7 @@ ros::Time InputStatus::stampFor(const ros::Time& stamp, const ros::Time& now) {
 }
 
 void InputStatus::countLost(const std::string& publisher, uint32_t sequence) {
-  constexpr uint32_t kRenumbered = 100000;  // more at once is no loss
+  constexpr uint32_t kRenumbered = 100000;  // a larger step is a new count, not a loss
   const uint32_t step = sequence - sequence_;
   if (publisher == publisher_ && sequence > sequence_ && step < kRenumbered) lost_ += step - 1;
   publisher_ = publisher;

@@ -10,7 +10,7 @@ namespace {
 
 using visualization_msgs::Marker;
 
-constexpr double kLargestDrawn = 1.0;    // m; a nearly unstable robot has an ellipsoid without bounds
+constexpr double kLargestDrawn = 1.0;    // m; the ellipsoid of a nearly unstable robot has no limit
 constexpr double kSmallestDrawn = 1e-4;  // m; rviz refuses a scale of zero
 
 }  // namespace
@@ -49,7 +49,7 @@ void setTube(Marker& marker, const std::vector<Pose>& sections, double radius,
              const std::vector<std_msgs::ColorRGBA>& colors) {
   constexpr int kSides = 12;
   marker.type = Marker::TRIANGLE_LIST;
-  marker.color = colors.front();  // rviz takes the transparency of all from here
+  marker.color = colors.front();  // rviz reads the transparency of the whole marker from here
   const auto corner = [&](size_t i, int side) {
     const double angle = 2.0 * kPi * side / kSides;
     marker.points.push_back(toPoint(sections[i] * Vector3(radius * std::cos(angle), radius * std::sin(angle), 0.0)));

@@ -1,5 +1,5 @@
 #pragma once
-// Shapes for rviz that the pictures of all robots are made of.
+// Shapes for rviz, used for all robots.
 
 #include <visualization_msgs/MarkerArray.h>
 
@@ -21,7 +21,7 @@ std_msgs::ColorRGBA color(double r, double g, double b, double a);
 // Blue (0) over white to red (1); grey when stale.
 std_msgs::ColorRGBA blueToRed(double fraction, bool stale);
 
-// At the origin of the frame, white, to be added.
+// A white marker at the origin of the frame, with action ADD.
 visualization_msgs::Marker newMarker(const std::string& frame, const ros::Time& stamp, const std::string& name, int id,
                                      int type);
 
@@ -36,14 +36,14 @@ void setEllipsoid(visualization_msgs::Marker& marker, const Ellipsoid& ellipsoid
 void setBall(visualization_msgs::Marker& marker, const Vector3& centre, double diameter,
              const std_msgs::ColorRGBA& shade);
 
-// ARROW from one place to another, or removed if they are less than 0.1 mm apart.
+// ARROW from one point to another; DELETE if they are less than 0.1 mm apart.
 void setArrow(visualization_msgs::Marker& marker, const Vector3& from, const Vector3& to,
               const std_msgs::ColorRGBA& shade);
 
 // TEXT_VIEW_FACING of this height, m.
 void setText(visualization_msgs::Marker& marker, const Vector3& place, double height, const std::string& text);
 
-// All markers, to be removed instead of added.
+// The same markers with action DELETE.
 void deleteAll(visualization_msgs::MarkerArray& markers);
 
 }  // namespace live_stiffness

@@ -27,7 +27,7 @@ Marker tube(const std::vector<Station>& shape, bool stale, const MarkerStyle& st
   const double largest = std::max(1e-12, *std::max_element(compliance.begin(), compliance.end()));
   std::vector<std_msgs::ColorRGBA> colors;
   colors.reserve(compliance.size());
-  // The root spreads the colours: compliance grows with about the cube of the arc length.
+  // Cube root, since compliance grows with about the cube of the arc length.
   for (double value : compliance) colors.push_back(blueToRed(std::cbrt(value / largest), stale));
   Marker marker = newMarker(style.frame, stamp, "backbone", 0, Marker::TRIANGLE_LIST);
   setTube(marker, sections, style.tube_radius, colors);
@@ -68,7 +68,7 @@ Marker eigenvalueText(const Estimate& estimate, bool stale, const MarkerStyle& s
   return marker;
 }
 
-// What an arrow of a force spans, kept within what can be drawn.
+// Vector of the arrow of a force, limited in length.
 Vector3 arrowOf(const Vector3& force, double force_n_per_m) {
   constexpr double kLongest = 0.2;  // m
   const double length = force.norm() / force_n_per_m;
@@ -113,7 +113,7 @@ MarkerArray makeEigenscrewMarkers(const Estimate& estimate, bool stale, double l
     char text[80];
     std::snprintf(text, sizeof text, "%+.3g N, %+.3g mm/rad", screw.eigenvalue, 1e3 * screw.pitch);
     Marker label = newMarker(style.frame, stamp, "eigenscrews", 6 + i, Marker::TEXT_VIEW_FACING);
-    // Positive and negative screws often share a line: their labels stand at its two ends.
+    // Positive and negative screws often share a line, so their labels are at its two ends.
     setText(label, middle + (is_positive ? 1.05 : -1.05) * half, 0.003, text);
     label.color = line.color;
     markers.markers.insert(markers.markers.end(), {line, label});

@@ -19,7 +19,7 @@ visualization_msgs::MarkerArray makeMarkers(const Estimate& estimate, const std:
 
 // Namespace `eigenscrews`: the axes of the six eigenscrews (21) of the stiffness as lines in space, `length` (m) long,
 // about the point of each that is nearest to T; red: positive, blue: negative; each with its eigenstiffness and pitch.
-// Removed when stale, or when the stiffness has none.
+// Removed when stale, or when the stiffness has no eigenscrews.
 visualization_msgs::MarkerArray makeEigenscrewMarkers(const Estimate& estimate, bool stale, double length,
                                                       const MarkerStyle& style, const ros::Time& stamp);
 
@@ -29,11 +29,11 @@ visualization_msgs::MarkerArray makeContactMarkers(const Vector3& tip, const Vec
                                                    bool in_contact, double force_n_per_m, const MarkerStyle& style,
                                                    const ros::Time& stamp);
 
-// The robot as it would be under a wrench.
+// The shape of the robot under an additional wrench.
 struct Ghost {
   std::vector<Pose> shape;          // sections, base to tip; empty: there is no equilibrium to show
   Pose X_BT;                        // its tip
-  Vector3 force = Vector3::Zero();  // at T beside what acts already, base axes, N
+  Vector3 force = Vector3::Zero();  // added at T, base axes, N
   Vector3 text_place = Vector3::Zero();  // m
   std::string text;
 };

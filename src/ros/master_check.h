@@ -12,11 +12,11 @@
 
 namespace live_stiffness {
 
-// Asks the master once a second, in a thread of its own: if the master's computer is switched off, one question may
-// take two minutes.
+// Checks the master once a second, in its own thread: if the master's computer is switched off, one check may take two
+// minutes.
 class MasterCheck {
  public:
-  // shuts_down: end this process when the master could not be reached for 10 s.
+  // shuts_down: ends this process when the master could not be reached for 10 s.
   explicit MasterCheck(bool shuts_down) : shuts_down_(shuts_down), spinner_(1, &queue_) {
     ros::NodeHandle node;
     node.setCallbackQueue(&queue_);

@@ -1,4 +1,4 @@
-// What changes a running StiffnessNode: ~reset, ~pause, ~reload and dynamic_reconfigure.
+// Commands to a running StiffnessNode: ~reset, ~pause, ~reload and dynamic_reconfigure.
 
 #include <dynamic_reconfigure/server.h>
 
@@ -16,7 +16,7 @@ struct StiffnessNode::Reconfiguration {
   void onChange(StiffnessConfig& wanted, uint32_t level);
 
   StiffnessNode& node;
-  StiffnessConfig config;  // that holds
+  StiffnessConfig config;  // the present one
   dynamic_reconfigure::Server<StiffnessConfig> server;
 };
 

@@ -1,4 +1,4 @@
-// What a StiffnessNode says of itself on /diagnostics.
+// Diagnostics of a StiffnessNode.
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <diagnostic_updater/update_functions.h>
@@ -55,7 +55,7 @@ void StiffnessNode::addDiagnostics() {
   updater.add("Clock", &diagnostics_->clock, &ClockStatus::diagnose);
   updater.add(diagnostics_->frequency);
   updater.add(diagnostics_->time_stamps);
-  // Not update(): it waits for ROS time, which may stand still or jump back.
+  // Not update(), which waits for ROS time: that may stand still or jump back (findings/diagnostics_after_a_jump_of_time.sh).
   diagnostics_->timer = node_.createWallTimer(ros::WallDuration(updater.getPeriod()), [this](const ros::WallTimerEvent&) {
     diagnostics_->updater.force_update();
   });

@@ -11,13 +11,13 @@
 
 namespace live_stiffness {
 
-// Runs a node until SIGINT or SIGTERM. Node: made from a public and a private ros::NodeHandle; its constructor throws
+// Runs a node until SIGINT or SIGTERM. Node: constructed from a public and a private ros::NodeHandle; throws
 // ConfigurationError on bad parameters. Returns the exit status: 0 in good order; 2 bad parameters, listed in the log;
 // 3 the master could not be reached for 10 s and ~exit_without_master is true, as launch files with respawn:=true set it.
 template <class Node>
 int runNode(int argc, char** argv, const std::string& name) {
   ros::init(argc, argv, name);
-  // They outlive the node: with the last handle roscpp shuts down, and its log with it.
+  // These outlive the node, because roscpp and its log shut down with the last handle.
   ros::NodeHandle handle, private_handle("~");
   std::signal(SIGTERM, [](int) { ros::requestShutdown(); });  // roscpp itself handles SIGINT only
   try {

@@ -1,5 +1,5 @@
 #pragma once
-// What was read from a message.
+// The result of reading a message.
 
 #include <ros/time.h>
 
@@ -13,7 +13,7 @@ template <class Value>
 struct Parsed {
   ros::Time stamp;  // zero: the message has none
   Value value;
-  std::string error;                      // empty: value holds
+  std::string error;                      // empty: `value` is valid
   std::optional<uint32_t> sequence = {};  // the publisher's number of the message, if it numbers them
 
   bool ok() const { return error.empty(); }

@@ -28,7 +28,7 @@ class PoseOutput {
   FrameNames frames_;
   ros::Publisher publisher_;
   tf2_ros::TransformBroadcaster broadcaster_;
-  ros::Time tf_stamp_;  // of the last transform sent; tf refuses the same stamp twice
+  ros::Time tf_stamp_;  // of the last transform sent; tf rejects a repeated stamp
 };
 
 }  // namespace live_stiffness

@@ -39,7 +39,7 @@ std::optional<Parsed<Pressures>> PressureInput::chamberPressures(Parsed<Pressure
   return channels;
 }
 
-// A channel that is silent or bad makes the pressures as a whole stale.
+// If one channel is silent or bad, all pressures are stale.
 bool PressureInput::allHeard(const ros::Time& now) const {
   return std::all_of(heard_.begin(), heard_.end(), [&](const ros::Time& heard) {
     return !heard.isZero() && std::abs((now - heard).toSec()) <= parameters_.pressure_timeout;

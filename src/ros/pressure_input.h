@@ -1,5 +1,5 @@
 #pragma once
-// Chamber pressures from whatever topics a rig publishes.
+// Chamber pressures from the topics of a rig.
 
 #include <sensor_msgs/FluidPressure.h>
 
@@ -21,10 +21,10 @@ class PressureInput {
 
   // Gauge pressures (Pa, one per chamber) and the stamp to use for them. None if the message cannot be used.
   std::optional<Parsed<Pressures>> read(const AnyMessage& message);
-  // The same when each channel has a topic of its own, one of ~pressure_topics: also none unless every channel sent a
-  // good message within ~pressure_timeout_s. channel: from 0.
+  // The same if each channel has its own topic, one of ~pressure_topics; also none unless every channel has sent a good
+  // message within ~pressure_timeout_s. channel: from 0.
   std::optional<Parsed<Pressures>> readChannel(const sensor_msgs::FluidPressure& message, size_t channel);
-  // The parameters have another scene or channel_of_chamber.
+  // Call it when the scene or channel_of_chamber in the parameters has changed.
   void updateChannels();
 
   int channelCount() const { return channel_map_.channelCount(); }
@@ -39,7 +39,7 @@ class PressureInput {
   ChannelMap channel_map_;
   ArrayStatus status_;
   Pressures channels_;             // newest of each of ~pressure_topics
-  std::vector<ros::Time> heard_;   // when the newest good message of each arrived; zero: not since its last bad one
+  std::vector<ros::Time> heard_;   // arrival of the newest good message of each; zero: none since the last bad one
   std::vector<ros::Time> stamps_;  // of the newest message of each
 };
 

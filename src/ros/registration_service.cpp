@@ -21,7 +21,7 @@ void RegistrationService::restart(std::shared_ptr<const StiffnessModel> model) {
   model_ = std::move(model);
 }
 
-// To copy the past takes milliseconds, which no estimate should be late by.
+// Copying the past takes milliseconds, which must not delay an estimate.
 void RegistrationService::addPressures(PressuresRef pressures, const ros::Time& stamp) {
   waiting_.emplace_back(stamp.toSec(), pressures);
   const std::unique_lock<std::mutex> lock(mutex_, std::try_to_lock);
@@ -75,7 +75,7 @@ bool RegistrationService::answer(Register::Request& request, Register::Response&
     response.message = result.fault;
     return true;
   }
-  result.fit.registration.tracker_delay = parameters_.registration.tracker_delay;  // its poses came corrected for it
+  result.fit.registration.tracker_delay = parameters_.registration.tracker_delay;  // the poses were already corrected for it
   fillRegistration(result, response);
   response.success = true;
   response.message = result.text();

@@ -1,5 +1,5 @@
 #pragma once
-// ~register: registers base and sensor from the recent past of the running robot; and the tf tracker -> base.
+// ~register: registration of base and sensor from the recent past of the running robot. Also publishes tf tracker -> base.
 
 #include <live_stiffness/Register.h>
 #include <ros/node_handle.h>
@@ -21,24 +21,23 @@ class RegistrationService {
  public:
   using OnApply = std::function<void(const Registration& registration)>;
 
-  // Advertises ~register and publishes the transform of the parameters' registration. Calls on_apply with one that is
-  // to be used from then on. parameters must outlive this. May be answered in another thread than that which adds.
+  // Advertises ~register and publishes the transform of the parameters' registration. Calls on_apply with a new
+  // registration to use. parameters must outlive this. Requests may come in another thread than pressures and poses.
   RegistrationService(ros::NodeHandle private_node, std::shared_ptr<const StiffnessModel> model,
                       const NodeParameters& parameters, OnApply on_apply);
   RegistrationService(const RegistrationService&) = delete;  // callbacks refer to it
 
-  // As those of RegistrationBuffer. time: s, on the clock of the pressures. Pressures come from one thread, which never
-  // waits here.
+  // As in RegistrationBuffer. time: s, on the clock of the pressures. Pressures come from one thread, which never waits here.
   void addPressures(PressuresRef pressures, const ros::Time& stamp);
   void addPose(const Pose& X_AS, const Wrench& tip_wrench, bool in_contact, double time) {
     const std::lock_guard<std::mutex> lock(mutex_);
     buffer_->addPose(X_AS, tip_wrench, in_contact, time);
   }
 
-  // Forgets the past; the model may be another one from now on.
+  // Forgets the past; call it with a new model, too.
   void restart(std::shared_ptr<const StiffnessModel> model);
 
-  // Always true; a request that cannot be fulfilled has success = false.
+  // Always returns true; a request that cannot be fulfilled gets success = false.
   bool answer(Register::Request& request, Register::Response& response);
 
  private:
@@ -48,7 +47,7 @@ class RegistrationService {
 
   const NodeParameters& parameters_;
   OnApply on_apply_;
-  std::vector<std::pair<double, Pressures>> waiting_;  // time, s, and pressures that came while the past was being copied
+  std::vector<std::pair<double, Pressures>> waiting_;  // time, s, and pressures that came while the past was copied
   std::mutex mutex_;  // of these two
   std::shared_ptr<const StiffnessModel> model_;
   std::unique_ptr<RegistrationBuffer> buffer_;

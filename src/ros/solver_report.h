@@ -1,5 +1,5 @@
 #pragma once
-// Health of the solver of either kind of robot, for diagnostics.
+// Diagnostics of the solver, for both kinds of robot.
 
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
 
@@ -7,8 +7,8 @@
 
 namespace live_stiffness {
 
-// estimator: StiffnessEstimator or ParallelEstimator. wrench_error: what is wrong with the known wrench; empty:
-// nothing.
+// estimator: StiffnessEstimator or ParallelEstimator. wrench_error: what is wrong with the known wrench,
+// or empty.
 template <class Estimator>
 void reportSolver(const Estimator& estimator, const std::string& wrench_error,
                   diagnostic_updater::DiagnosticStatusWrapper& status) {

@@ -110,7 +110,7 @@ void StiffnessNode::estimate(const Parsed<Pressures>& pressures) {
     if (estimator_->estimate() != nullptr && estimator_->status().ok())
       history_.add({time, pressures.value, estimator_->estimate()->solution.X_BT});
   }
-  registration_.addPressures(pressures.value, pressures.stamp);  // last, so that the estimate does not wait for it
+  registration_.addPressures(pressures.value, pressures.stamp);  // last, so that it does not delay the estimate
 }
 
 void StiffnessNode::onSolved(StiffnessEstimator::Outcome outcome) {
@@ -125,7 +125,7 @@ std::string StiffnessNode::newestError() const {
   return input_error.empty() ? estimator_->statusText() : input_error;
 }
 
-// The last good estimate, with the truth about how good it still is.
+// The last good estimate, with its present status.
 void StiffnessNode::publishEstimate() {
   if (estimator_->estimate() == nullptr) return;
   const Estimate& estimate = *estimator_->estimate();
@@ -162,7 +162,7 @@ void StiffnessNode::onTrackingHeartbeat(const ros::WallTimerEvent&) {
 }
 
 void StiffnessNode::compare(const TipMeasurement& measured) {
-  // A late tracker shows how the robot stood then.
+  // A late tracker shows where the robot was then.
   const double delay = parameters_.registration.tracker_delay, time = measured.stamp.toSec() - delay;
   Moment then;
   Wrench newest_wrench, solved_wrench;

@@ -3,8 +3,8 @@
 //
 // Three threads, so that nothing delays an estimate, and two mutexes. The estimation thread takes pressures and known
 // wrenches and publishes estimates, under estimation_mutex_. The tracking thread takes tracker poses and estimates
-// contact, under tracking_mutex_. All else (markers, the handle, services, diagnostics) runs where the process spins the
-// global callback queue, and holds a mutex only while it copies. Order of locking: tracking, estimation.
+// contact, under tracking_mutex_. Everything else (markers, handle, services, diagnostics) runs in the thread that spins
+// the global callback queue, and holds a mutex only while it copies. Order of locking: tracking, estimation.
 
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
@@ -33,8 +33,8 @@ class TipHandle;
 
 class StiffnessNode {
  public:
-  // Subscribes and advertises. Throws ConfigurationError with every fault of the parameters. Spin the global callback
-  // queue, in one thread.
+  // Subscribes and advertises. Throws ConfigurationError with every fault of the parameters. The caller must spin the global
+  // callback queue, in one thread.
   StiffnessNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
   ~StiffnessNode();
 
@@ -57,7 +57,7 @@ class StiffnessNode {
   void onSolved(StiffnessEstimator::Outcome outcome);
   void publishEstimate();
   void countPublished(bool is_stale);  // for diagnostics
-  // Why the estimate is not that of the newest pressures; empty: it is.
+  // Why the estimate does not belong to the newest pressures; empty if it does.
   std::string newestError() const;
   bool isStale() const { return !newestError().empty() || pressure_input_.status().isStale(); }
   std::shared_ptr<const StiffnessModel> model() const { return {estimator_, &estimator_->model()}; }
@@ -76,7 +76,7 @@ class StiffnessNode {
   bool reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
   bool pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   bool reload(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
-  // Makes estimators by the parameters, which from then on hold; throws ConfigurationError, and then nothing has changed.
+  // Makes estimators with these parameters and stores them. Throws ConfigurationError, and then nothing has changed.
   void setParameters(const NodeParameters& parameters, bool keeps_inputs);
 
   NodeParameters parameters_;

@@ -13,7 +13,7 @@ namespace live_stiffness {
 
 class StiffnessNodelet : public nodelet::Nodelet {
  private:
-  // A throw here is logged by the manager with its text, and the nodelet is not loaded.
+  // The manager logs an exception from here, and does not load the nodelet.
   void onInit() override {
     node_ = std::make_unique<StiffnessNode>(getNodeHandle(), getPrivateNodeHandle());
     master_ = std::make_unique<MasterCheck>(false);

@@ -11,7 +11,7 @@ namespace {
 constexpr char kOtherShape[] =
     "the robot is in another stable shape than the one it takes from rest, which alone can be solved for";
 
-// Fills what all answers share. False, and why, if there is nothing to answer from.
+// Fills the common fields of all answers. False, with the reason, if there is no estimate.
 template <class Response>
 bool begin(const EstimateSnapshot& newest, const std::string& frame, Response& response) {
   response.success = false;

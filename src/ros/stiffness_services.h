@@ -1,6 +1,6 @@
 #pragma once
-// The questions that stiffness_node answers: ~predict_deflection, ~compliance_at, ~directional_stiffness. Each is
-// answered for the newest estimate, in a workspace of its own, so that the live solver stays as it is.
+// Services of stiffness_node about the newest estimate: ~predict_deflection, ~compliance_at, ~directional_stiffness. They have
+// their own workspace, so that the live solver is not affected.
 
 #include <live_stiffness/ComplianceAt.h>
 #include <live_stiffness/DirectionalStiffness.h>
@@ -21,7 +21,7 @@ class StiffnessServices {
   StiffnessServices(ros::NodeHandle private_node, FrameNames frames, GetSnapshot get_snapshot);
   StiffnessServices(const StiffnessServices&) = delete;  // callbacks refer to it
 
-  // The answers; always true, since a question that cannot be answered has success = false.
+  // Always return true; a request that cannot be fulfilled gets success = false.
   bool predictDeflection(PredictDeflection::Request& request, PredictDeflection::Response& response);
   bool complianceAt(ComplianceAt::Request& request, ComplianceAt::Response& response);
   bool directionalStiffness(DirectionalStiffness::Request& request, DirectionalStiffness::Response& response);

@@ -36,7 +36,7 @@ std::string wrenchText(const Wrench& wrench) {
   return std::string(text, size);
 }
 
-// How far the tip moved, and by how much (19) misses that.
+// Motion of the tip, and the error of (19).
 std::string motionText(const Pose& before, const Pose& after, const Pose& predicted) {
   const PoseDifference motion = differenceOf(before, after), error = differenceOf(predicted, after);
   char text[120];
@@ -84,7 +84,7 @@ void TipHandle::choose(Question question) {
     menu_.setCheckState(entries_[i],
                         static_cast<size_t>(question) == i ? MenuHandler::CHECKED : MenuHandler::UNCHECKED);
   letGo();
-  is_inserted_ = false;  // it needs other controls
+  is_inserted_ = false;  // the controls change
 }
 
 void TipHandle::letGo() {
@@ -97,7 +97,7 @@ void TipHandle::letGo() {
 
 void TipHandle::insertMarker(const Pose& X_BT) {
   visualization_msgs::InteractiveMarker marker;
-  marker.header.frame_id = style_.frame;  // and no stamp: so rviz answers in this frame
+  marker.header.frame_id = style_.frame;  // without a stamp, so that rviz answers in this frame
   marker.name = kName;
   marker.description = titleOf(question_);
   marker.scale = static_cast<float>(0.3 * solver_.model().scene().length());
@@ -113,7 +113,7 @@ void TipHandle::insertMarker(const Pose& X_BT) {
   ball.name = "move";
   ball.interaction_mode = InteractiveMarkerControl::MOVE_3D;
   ball.always_visible = true;
-  // Without a frame it is in the handle's own.
+  // A marker without a frame is in the frame of the handle.
   ball.markers.push_back(newMarker("", ros::Time(), "", 0, visualization_msgs::Marker::SPHERE));
   setBall(ball.markers.back(), Vector3::Zero(), 0.35 * marker.scale, color(0.9, 0.9, 0.95, 0.35));
   marker.controls.push_back(ball);

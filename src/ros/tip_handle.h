@@ -1,11 +1,11 @@
 #pragma once
-// The interactive marker at the tip: a question asked with the mouse, and its answer as a ghost of the robot.
+// The interactive marker at the tip (the handle), and the ghost of the robot that answers it.
 //
-// Three questions, chosen in its menu: which force holds the tip at a position, which wrench holds it at a pose, and
-// where a wrench takes it. The handle follows the tip until it is dragged, and stays where it is dragged until "let
-// go". Each is answered by the exact nonlinear equilibrium in a workspace of its own, never by the live solver.
+// Its menu has three modes: the force that holds the tip at a position, the wrench that holds it at a pose, and the pose of
+// the tip under a wrench. The handle follows the tip until it is dragged, and then stays there until "let go". The answer
+// is the exact nonlinear equilibrium, in a workspace of its own, so that the live solver is not affected.
 //
-// All runs in the thread that spins the global callback queue: the mouse's events as well as update().
+// Everything runs in the thread that spins the global callback queue: events of the mouse and update().
 
 #include <interactive_markers/interactive_marker_server.h>
 #include <interactive_markers/menu_handler.h>
@@ -31,8 +31,8 @@ class TipHandle {
             const TipHandleOptions& options, const ros::Publisher& markers, GetSnapshot get_snapshot);
   TipHandle(const TipHandle&) = delete;  // callbacks refer to it
 
-  // Lets the handle follow the tip, or answers for the newest estimate. Call at the rate of the markers: dragging only
-  // moves the handle, so that questions do not pile up. Answers take at most a fifth of the time.
+  // Moves the handle with the tip, or answers for the newest estimate. Call it at the rate of the markers. Dragging only
+  // moves the handle, so that no queue of requests builds up. Answers take at most a fifth of the time.
   void update();
 
  private:
@@ -53,7 +53,7 @@ class TipHandle {
   GetSnapshot get_snapshot_;
   ModelWorkspace solver_;
   Question question_ = Question::kForceAtPosition;
-  std::optional<Pose> dragged_;  // where the handle was left, base axes; none: it follows the tip
+  std::optional<Pose> dragged_;  // pose of the handle after dragging, in B; none: it follows the tip
   Wrench wrench_ = Wrench::Zero();  // asked about, kDeflectionUnderWrench
   struct Asked {
     Pressures effective;

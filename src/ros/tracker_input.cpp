@@ -42,7 +42,7 @@ std::optional<TipMeasurement> TrackerInput::lookUp() {
 }
 
 std::string TrackerInput::errorOf(const TrackedPose& tracked, const Pose& X_BT) const {
-  constexpr double kPlausibleReach = 5.0;  // m from tracker and base; a position beyond is in millimetres
+  constexpr double kPlausibleReach = 5.0;  // m from tracker and base; positions farther away are in millimetres
   const std::string& frame = tracked.frame;
   if (!frame.empty() && frame != parameters_.tracker_frame && frame != parameters_.sensor_frame)
     return "unknown frame " + frame + ": must be " + parameters_.tracker_frame + " or " + parameters_.sensor_frame +
