@@ -52,7 +52,7 @@ BagSpan readBag(const std::string& path, const BagFormat& format, BagListener& l
     throw;  // from the listener
   } catch (const std::exception& error) {
     throw std::runtime_error("bag " + path + ": cannot be read: " + error.what() + "; if it was cut off, `rosbag reindex " +
-                             path + "` keeps what is whole");
+                             path + "` recovers the complete part");
   }
 }
 

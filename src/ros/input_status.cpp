@@ -145,7 +145,7 @@ void ArrayStatus::diagnose(const std::string& solver_error, diagnostic_updater::
   else if (!warning().empty())
     status.summary(DiagnosticStatus::WARN, warning());
   else if (lost > 0)
-    status.summaryf(DiagnosticStatus::WARN, "%ld messages lost since the last report: they come faster than they are taken",
+    status.summaryf(DiagnosticStatus::WARN, "%ld messages lost since the last report: they come faster than they are processed",
                     lost);
   else
     status.summary(DiagnosticStatus::OK, "ok");

@@ -41,7 +41,7 @@ class MasterCheck {
       is_lost_ = true;
       ROS_ERROR("the master at %s cannot be reached for %.0f s: %s", ros::master::getURI().c_str(),
                 (now - last_answer_).toSec(),
-                shuts_down_ ? "this process ends with status 3" : "connected nodes go on, nodes that start now find nobody");
+                shuts_down_ ? "this process ends with status 3" : "connected nodes keep working, but new nodes cannot connect");
       if (shuts_down_) ros::requestShutdown();
     }
   }

@@ -57,7 +57,7 @@ bool StiffnessNode::pause(std_srvs::SetBool::Request& request, std_srvs::SetBool
   is_paused_ = request.data;
   publishEstimate();
   response.success = true;
-  response.message = is_paused_ ? "paused: the last estimate goes on, marked stale" : "going on with the next pressures";
+  response.message = is_paused_ ? "paused: the last estimate is published as stale" : "continues with the next pressures";
   ROS_INFO_STREAM("pause: " << response.message);
   return true;
 }

@@ -120,7 +120,7 @@ void StiffnessNode::onSolved(StiffnessEstimator::Outcome outcome) {
 }
 
 std::string StiffnessNode::newestError() const {
-  if (is_paused_) return "paused: ~pause with false goes on";
+  if (is_paused_) return "paused: call ~pause with false to continue";
   const std::string& input_error = pressure_input_.status().error();
   return input_error.empty() ? estimator_->statusText() : input_error;
 }

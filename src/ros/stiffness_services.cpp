@@ -83,7 +83,7 @@ bool StiffnessServices::complianceAt(ComplianceAt::Request& request, ComplianceA
   const GeneralisedCompliance tangent(solver_.model(), solver_.workspace(), estimate.tip_wrench,
                                       {{request.segment, request.fraction}});
   const Matrix6 C = tangent.between(0, 0);
-  if (!tangent.ok() || !C.allFinite()) return refuse("no tangent compliance: at the brink of buckling", response);
+  if (!tangent.ok() || !C.allFinite()) return refuse("no tangent compliance: the robot is at its buckling load", response);
   const Station station = solver_.model().station(solver_.workspace(), request.segment, request.fraction);
   response.pose = toPose(station.X_BS);
   response.stretch = station.stretch;

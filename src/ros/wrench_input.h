@@ -28,7 +28,7 @@ class WrenchInput {
   // True once when the last wrench is older than the timeout: it is zero from then on. To be called now and then.
   bool expires() {
     if (timeout_ <= 0.0 || !status_.hasMessage() || status_.age() <= timeout_) return false;
-    ROS_WARN("%s: nothing for %g s, now taken as zero", status_.name().c_str(), timeout_);
+    ROS_WARN("%s: no message for %g s, now counts as zero", status_.name().c_str(), timeout_);
     status_.restart();
     return true;
   }
