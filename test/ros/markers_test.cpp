@@ -29,7 +29,7 @@ class MarkersTest : public ::testing::Test {
   }
   MarkerArray draw() const { return draw(*estimator_.estimate()); }
 
-  static const Marker& find(const MarkerArray& array, const std::string& name, int id) {
+  static const Marker& find(const MarkerArray& array, const char* name, int id) {
     for (const Marker& marker : array.markers)
       if (marker.ns == name && marker.id == id) return marker;
     throw std::out_of_range(name);

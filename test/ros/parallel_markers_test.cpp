@@ -22,7 +22,7 @@ class ParallelMarkersTest : public ::testing::Test {
   MarkerArray draw(bool stale = false) const {
     return makeParallelMarkers(*estimator_.estimate(), estimator_.model().scene(), stale, style_, ros::Time(1.0));
   }
-  static const Marker& find(const MarkerArray& array, const std::string& name, int id) {
+  static const Marker& find(const MarkerArray& array, const char* name, int id) {
     for (const Marker& marker : array.markers)
       if (marker.ns == name && marker.id == id) return marker;
     throw std::out_of_range(name);
