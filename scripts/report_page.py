@@ -76,7 +76,7 @@ def hard_cases(data, folder):
         return row["ok"] in (1.0, "true", "yes", "ok")
 
     if hard:
-        head = ("case", "class", "status", "error", "estimate", "passes", "us", "as it should be", "note")
+        head = ("case", "class", "status", "error", "estimate", "iterations", "us", "as it should be", "note")
         parts.append("## Hard cases\n\n%d of %d come out as they should; an honest status counts." % (
             sum(map(good, hard)), len(hard)))
         parts.append(table(head, [

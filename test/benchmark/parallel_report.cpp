@@ -83,7 +83,7 @@ int main(int argc, char** argv) {
   const double seconds = argc > 1 ? std::atof(argv[1]) : 0.3;
   const ParallelScene scene = stewartGough();
   std::printf("%-5s %-13s %-8s %8s %8s %8s %8s %9s %9s %6s %8s %6s\n", "Fig18", "way", "with", "accuracy", "us", "99 % us",
-              "kHz", "error", "estimate", "passes", "elements", "failed");
+              "kHz", "error", "estimate", "iter.", "elements", "failed");
   for (char configuration : {'a', 'b', 'c'}) {
     const std::vector<Sample> path = makePath(scene, figure18Pose(configuration));
     for (double accuracy : {1e-5, 1e-7, 1e-9, 1e-11})
