@@ -1,36 +1,9 @@
 #include "yaml_map.h"
 
-#include <yaml-cpp/eventhandler.h>
-
 #include <cmath>
 #include <map>
-#include <sstream>
 
 namespace live_stiffness {
-namespace {
-
-// Takes note of nothing.
-class IgnoreEvents : public YAML::EventHandler {
-  void OnDocumentStart(const YAML::Mark&) override {}
-  void OnDocumentEnd() override {}
-  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
-  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
-  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
-  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
-  void OnSequenceEnd() override {}
-  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
-  void OnMapEnd() override {}
-};
-
-// Looks for no third: on some damaged texts yaml-cpp finds documents without end, and LoadAll() never comes back.
-bool holdsTwoDocuments(const std::string& yaml) {
-  std::istringstream text(yaml);
-  YAML::Parser parser(text);
-  IgnoreEvents ignore;
-  return parser.HandleNextDocument(ignore) && parser.HandleNextDocument(ignore);
-}
-
-}  // namespace
 
 std::string lineOf(const YAML::Node& node) {
   const YAML::Mark mark = node.Mark();
@@ -133,7 +106,6 @@ void YamlMap::finish() {
 
 void readDocument(const std::string& yaml, FaultList& faults, const std::function<void(YamlMap&)>& read) {
   try {
-    if (holdsTwoDocuments(yaml)) faults.add("holds more than one YAML document: must be one");
     YamlMap map(YAML::Load(yaml), "", faults);
     read(map);
   } catch (const YAML::Exception& error) {

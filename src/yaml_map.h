@@ -49,7 +49,7 @@ class YamlMap {
   std::set<std::string> asked_;
 };
 
-// Hands the one document of a text to `read`. A text that is not YAML, or holds several documents, becomes a fault.
+// Hands the first document of a text to `read`. A text that is not YAML becomes a fault.
 void readDocument(const std::string& yaml, FaultList& faults, const std::function<void(YamlMap&)>& read);
 
 // True if the key `kind` of a scene is the one that a loader reads: "serial" (also if missing) or "parallel". Else a

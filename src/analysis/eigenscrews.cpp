@@ -26,18 +26,19 @@ Matrix6 overDelta(const Matrix6& L) {
 // Eigenvalues come ascending: the positive ones from the end, then the negative ones from the start.
 constexpr int kOrder[6] = {5, 4, 3, 0, 1, 2};
 
-// Columns are screws [n; m], or with `axis` twists [m; n]: in the coordinates of the matrix that they belong to.
-EigenscrewDecomposition decompose(const Matrix6& matrix, const ElasticCentre& centre, bool axis) {
+}  // namespace
+
+EigenscrewDecomposition eigenscrewsOfStiffness(const Matrix6& K) {
   EigenscrewDecomposition result;
+  const ElasticCentre centre = centreOfStiffness(K);
   Matrix6 L;
   if (!centre.exists || !factorise(centre.matrix, L)) return result;
-  result.asymmetry = asymmetryOf(matrix);
+  result.asymmetry = asymmetryOf(K);
   const Eigen::SelfAdjointEigenSolver<Matrix6> solver(overDelta(L));
   const Matrix6 vectors = L * solver.eigenvectors();
   for (int i = 0; i < 6; ++i) {
-    const Vector6 column = vectors.col(kOrder[i]);
-    const Vector3 along = axis ? column.tail<3>() : column.head<3>(),
-                  about = axis ? column.head<3>() : column.tail<3>();
+    const Vector6 column = vectors.col(kOrder[i]);  // a screw [n; m]
+    const Vector3 along = linear(column), about = angular(column);
     const double size = along.norm();
     if (!(size > 0.0) || !std::isfinite(1.0 / size)) return result;
     Eigenscrew& screw = result.screws[i];
@@ -56,27 +57,6 @@ EigenscrewDecomposition decompose(const Matrix6& matrix, const ElasticCentre& ce
   result.definite = true;
   return result;
 }
-
-Matrix6 sumOf(const EigenscrewDecomposition& decomposition, bool axis) {
-  Matrix6 sum = Matrix6::Zero();
-  for (const Eigenscrew& screw : decomposition.screws) {
-    const Vector3 about = screw.point.cross(screw.direction) + screw.pitch * screw.direction;
-    Vector6 column;
-    column << (axis ? about : screw.direction), (axis ? screw.direction : about);
-    sum += screw.coefficient * column * column.transpose();
-  }
-  return sum;
-}
-
-}  // namespace
-
-EigenscrewDecomposition eigenscrewsOfStiffness(const Matrix6& K) { return decompose(K, centreOfStiffness(K), false); }
-
-EigenscrewDecomposition eigenscrewsOfCompliance(const Matrix6& C) { return decompose(C, centreOfCompliance(C), true); }
-
-Matrix6 stiffnessFromScrews(const EigenscrewDecomposition& decomposition) { return sumOf(decomposition, false); }
-
-Matrix6 complianceFromScrews(const EigenscrewDecomposition& decomposition) { return sumOf(decomposition, true); }
 
 Eigenstiffnesses eigenstiffnessesOfCompliance(const Matrix6& C) {
   Eigenstiffnesses result;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "live_stiffness/checks.h"
+#include "rod/backbone.h"
 
 namespace live_stiffness {
 namespace {
@@ -17,10 +18,10 @@ constexpr int kMostPieces = 64;
 
 int pieceCount(const RodElement& element, int stages) {
   const ElementState& s = element.state;
-  const double softness = std::max({s.bend_xx, s.bend_yy, s.torsion});
+  const double compliance = std::max({s.bend_xx, s.bend_yy, s.torsion});
   const double load = Vector3(s.n_start).norm() + std::abs(s.length) * Vector3(s.line_load).norm();
-  const double waves = s.length * std::sqrt(softness * load);
-  const double turns = s.length * softness * Vector3(s.m_start).norm();
+  const double waves = s.length * std::sqrt(compliance * load);
+  const double turns = s.length * compliance * Vector3(s.m_start).norm();
   const double bending = std::max({element.bending(stages), waves, turns});
   return std::clamp(static_cast<int>(std::ceil(bending / kPieceBending)), 1, kMostPieces);
 }
@@ -30,7 +31,7 @@ int pieceCount(const RodElement& element, int stages) {
 // Walks from base to tip and leaves a stop wherever one is asked for.
 class GeneralisedCompliance::Walk {
  public:
-  Walk(GeneralisedCompliance& result, const ElementPasses& passes) : result_(result), passes_(passes) {}
+  Walk(GeneralisedCompliance& result, const ElementKernel& kernel) : result_(result), kernel_(kernel) {}
 
   const Pose& X() const { return X_; }
 
@@ -65,7 +66,7 @@ class GeneralisedCompliance::Walk {
       RodElement piece = element;
       piece.state.length = element.state.length * (to - from) / count;
       piece.setStart(X_, n_, m_);
-      result_.ok_ = integrate(passes_, true, piece) && addPiece(piece);
+      result_.ok_ = integrate(kernel_, true, piece) && addPiece(piece);
       X_ = piece.X_end();
       n_ = piece.n_end();
       m_ = piece.m_end();
@@ -76,11 +77,11 @@ class GeneralisedCompliance::Walk {
   bool addPiece(RodElement& piece) {
     Transfer step;
     for (bool of_moment : {false, true}) {
-      ElementColumns start = {}, end = {};
-      columnsOf(of_moment ? start.m : start.phi).leftCols<3>().setIdentity();
-      if (!std::isfinite(propagate(passes_, true, piece, start, kColumnGoal, end))) return false;
+      ElementSensitivities start = {}, end = {};
+      sensitivityMatrix(of_moment ? start.m : start.phi).leftCols<3>().setIdentity();
+      if (!std::isfinite(propagate(kernel_, true, piece, start, kColumnGoal, end))) return false;
       Eigen::Matrix<double, 9, 6> columns;
-      columns << columnsOf(end.phi), columnsOf(end.p), columnsOf(end.m);
+      columns << sensitivityMatrix(end.phi), sensitivityMatrix(end.p), sensitivityMatrix(end.m);
       step.of_state.middleCols<3>(of_moment ? 6 : 0) = columns.leftCols<3>();
       step.of_force = columns.rightCols<3>();
     }
@@ -94,7 +95,7 @@ class GeneralisedCompliance::Walk {
   }
 
   GeneralisedCompliance& result_;
-  const ElementPasses& passes_;
+  const ElementKernel& kernel_;
   Pose X_;
   Vector3 n_ = Vector3::Zero(), m_ = Vector3::Zero();
   Transfer from_base_, from_last_;
@@ -117,7 +118,7 @@ GeneralisedCompliance::GeneralisedCompliance(const StiffnessModel& model, const 
   DeadLoads loads;
   if (workspace.loaded()) loads = {scene.gravity.value_or(Vector3::Zero()), tip_wrench};
   Vector3 n = loads.baseForce(chain);
-  Walk walk(*this, elementPasses(kMaxStages, backbone.simd()));
+  Walk walk(*this, elementKernel(kMaxStages, backbone.simd()));
   auto element = backbone.elements.begin();
   for (const Chain::Part& part : chain.parts) {
     if (part.segment < 0) {
@@ -132,7 +133,7 @@ GeneralisedCompliance::GeneralisedCompliance(const StiffnessModel& model, const 
     auto next = here.begin();
     const int count = backbone.element_count[part.segment];
     for (int k = 0; k < count; ++k, ++element) {
-      const int pieces = pieceCount(*element, backbone.passes->stages);
+      const int pieces = pieceCount(*element, backbone.kernel->stages);
       double at = 0.0;
       while (next != here.end()) {
         const double to = places[*next].fraction * count - k;

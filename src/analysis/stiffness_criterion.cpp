@@ -99,8 +99,4 @@ Vector3 directionNamed(const std::string& name, const std::string& text, FaultLi
   return Vector3::UnitX();
 }
 
-AugmentedPosition augmentedPosition(const Pose& X_BT, const Matrix6& C, const StiffnessCriterion& criterion) {
-  return {X_BT.p, criterion(C)};
-}
-
 }  // namespace live_stiffness

@@ -47,14 +47,6 @@ Matrix6 shiftStiffness(const Matrix6& K, const Vector3& offset) {
 
 Matrix6 stiffnessInBodyAxes(const Matrix6& K, const Matrix3& R) { return complianceInBodyAxes(K, R); }
 
-Matrix6 complianceInFrame(const Matrix6& C, const Pose& X_OF) {
-  return complianceInBodyAxes(shiftCompliance(C, X_OF.p), X_OF.R);
-}
-
-Matrix6 stiffnessInFrame(const Matrix6& K, const Pose& X_OF) {
-  return stiffnessInBodyAxes(shiftStiffness(K, X_OF.p), X_OF.R);
-}
-
 double asymmetryOf(const Matrix6& matrix) {
   const double factor = angularFactor(matrix);
   const Matrix6 scaled = std::isfinite(factor) && factor > 0.0 ? withAngularScaled(matrix, factor) : matrix;

@@ -1,12 +1,13 @@
 #include "analysis/stiffness_sweep.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/parallel_loop.h"
 #include "live_stiffness/analysis/eigenscrews.h"
 
 namespace live_stiffness {
@@ -54,9 +55,10 @@ void StiffnessSweep::run(const Sink& sink, int threads, long block) const {
   for (long first = 0; first < plan_.rows(); first += block) {
     rows.resize(std::min(block, plan_.rows() - first));
     arena.execute([&] {
-      parallelLoop(static_cast<long>(rows.size()), 64, [&](long begin, long end) {
+      tbb::parallel_for(tbb::blocked_range<size_t>(0, rows.size(), 64), [&](const tbb::blocked_range<size_t>& range) {
         Worker& worker = workers.local();
-        for (long i = begin; i != end; ++i) rows[i] = solve(first + i, worker.workspace, worker.chambers);
+        for (size_t i = range.begin(); i != range.end(); ++i)
+          rows[i] = solve(first + static_cast<long>(i), worker.workspace, worker.chambers);
       });
       sink(first, rows);  // inside the arena, so that the limit on threads holds for it, too
     });

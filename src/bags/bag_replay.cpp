@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "estimation/motion_history.h"
-#include "estimation/tip_force.h"
 #include "bags/bag_reader.h"
 #include "bags/output_bag.h"
 

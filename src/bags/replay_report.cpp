@@ -3,7 +3,6 @@
 #include <sstream>
 
 #include "live_stiffness/checks.h"
-#include "estimation/tip_force.h"
 
 namespace live_stiffness {
 namespace {

@@ -1,16 +1,65 @@
 #include "calibration/calibration_problem.h"
 
 #include <ceres/ceres.h>
+#include <ceres/normal_prior.h>
+#include <ceres/version.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "calibration/compliance_cost.h"
-#include "calibration/parameter_bounds.h"
-#include "calibration/prior_cost.h"
 #include "live_stiffness/checks.h"
 
 namespace live_stiffness {
+namespace {
+
+// Adds x, in units of prior sigmas from the start, as a block of the problem with the parameters' bounds.
+void addBoundedBlock(ceres::Problem& problem, Eigen::VectorXd& x, const std::vector<SceneParameter>& parameters) {
+  problem.AddParameterBlock(x.data(), static_cast<int>(x.size()));
+  for (size_t k = 0; k < parameters.size(); ++k) {
+    const SceneParameter& p = parameters[k];
+    problem.SetParameterLowerBound(x.data(), static_cast<int>(k), (p.low - p.start) / p.prior_sigma);
+    problem.SetParameterUpperBound(x.data(), static_cast<int>(k), (p.high - p.start) / p.prior_sigma);
+  }
+}
+
+// Holds these entries of x where they are, and frees the others.
+void hold(ceres::Problem& problem, Eigen::VectorXd& x, const std::vector<int>& entries) {
+  const int count = static_cast<int>(x.size());
+  if (static_cast<int>(entries.size()) == count) {
+    problem.SetParameterBlockConstant(x.data());
+    return;
+  }
+  problem.SetParameterBlockVariable(x.data());
+#if CERES_VERSION_MAJOR > 2 || (CERES_VERSION_MAJOR == 2 && CERES_VERSION_MINOR >= 1)
+  problem.SetManifold(x.data(), entries.empty() ? nullptr : new ceres::SubsetManifold(count, entries));
+#else
+  problem.SetParameterization(x.data(), new ceres::SubsetParameterization(count, entries));
+#endif
+}
+
+// Frees x; returns its entries that are at a bound beyond which the cost would fall.
+std::vector<int> pressedAgainstBounds(ceres::Problem& problem, Eigen::VectorXd& x,
+                                      const std::vector<SceneParameter>& parameters) {
+  hold(problem, x, {});
+  ceres::Problem::EvaluateOptions options;
+  options.parameter_blocks = {x.data()};
+  options.num_threads = 1;
+  double cost = 0.0;
+  std::vector<double> gradient;
+  std::vector<int> pressed;
+  if (!problem.Evaluate(options, &cost, nullptr, &gradient, nullptr)) return pressed;
+  for (int k = 0; k < static_cast<int>(x.size()); ++k) {
+    const SceneParameter& p = parameters[static_cast<size_t>(k)];
+    const double value = p.start + p.prior_sigma * x[k], near = 1e-9 * (p.high - p.low);
+    if ((value < p.low + near && gradient[static_cast<size_t>(k)] > 0.0) ||
+        (value > p.high - near && gradient[static_cast<size_t>(k)] < 0.0))
+      pressed.push_back(k);
+  }
+  return pressed;
+}
+
+}  // namespace
 
 CalibrationProblem::CalibrationProblem(const Scene& scene, const ChannelMap& channels,
                                        const std::vector<SceneParameter>& parameters,
@@ -90,22 +139,25 @@ std::vector<ceres::ResidualBlockId> CalibrationProblem::addData(ceres::Problem& 
 }
 
 void CalibrationProblem::addPriors(ceres::Problem& problem, CalibrationUnknowns& unknowns, const Sigmas& sigmas) const {
-  const std::vector<double> zeros(3, 0.0), offsets(3, kOffsetSigma);
+  // Normal distribution of three entries of a registration about zero.
+  const auto add_prior = [&](RegistrationVector& r, int first, double sigma) {
+    ceres::Matrix information_root = ceres::Matrix::Zero(3, kRegistrationSize);
+    information_root.block<3, 3>(0, first).diagonal().setConstant(1.0 / sigma);
+    const ceres::Vector mean = ceres::Vector::Zero(kRegistrationSize);
+    problem.AddResidualBlock(new ceres::NormalPrior(information_root, mean), nullptr, r.data());
+  };
   for (RegistrationVector& r : unknowns.registrations) {
-    problem.AddResidualBlock(priorCost(kRegistrationSize, {6, 7, 8}, zeros, offsets).release(), nullptr, r.data());
-    if (sigmas.rotation <= 0.0)  // without orientations nothing determines the sensor's rotation: it is kept
-      problem.AddResidualBlock(priorCost(kRegistrationSize, {9, 10, 11}, zeros, {1, 1, 1}).release(), nullptr,
-                               r.data());
+    add_prior(r, 6, kOffsetSigma);
+    if (sigmas.rotation <= 0.0) add_prior(r, 9, 1.0);  // nothing else determines the sensor's rotation: it is kept
   }
   if (!options_.use_priors || parameters_.empty()) return;
-  std::vector<int> entries;
-  std::vector<double> means, ones;
-  for (const SceneParameter& p : parameters_) {
-    entries.push_back(static_cast<int>(entries.size()));
-    means.push_back((p.prior_mean - p.start) / p.prior_sigma);
-    ones.push_back(1.0);
+  const long count = static_cast<long>(parameters_.size());
+  ceres::Vector mean(count);
+  for (long k = 0; k < count; ++k) {
+    const SceneParameter& p = parameters_[static_cast<size_t>(k)];
+    mean[k] = (p.prior_mean - p.start) / p.prior_sigma;
   }
-  problem.AddResidualBlock(priorCost(static_cast<int>(entries.size()), entries, means, ones).release(), nullptr,
+  problem.AddResidualBlock(new ceres::NormalPrior(ceres::Matrix::Identity(count, count), mean), nullptr,
                            unknowns.x.data());
 }
 

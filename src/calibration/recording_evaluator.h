@@ -4,10 +4,20 @@
 #include <string>
 #include <vector>
 
-#include "calibration/calibration_unknowns.h"
 #include "calibration/calibration.h"
 
 namespace live_stiffness {
+
+// Unknowns: x, the parameters minus their start, in units of their prior sigmas; and for each recording 12 numbers
+//   [w_AB, p_AB, p_TS, w_TS], R_AB = exp(w_AB) R_AB_start, R_TS = exp(w_TS) R_TS_start; m and rad.
+constexpr int kRegistrationSize = 12;
+constexpr double kOffsetSigma = 0.03;  // prior of the sensor's offset from T, per axis, m: it is on the tip
+using RegistrationVector = Eigen::Matrix<double, kRegistrationSize, 1>;
+
+struct CalibrationUnknowns {
+  Eigen::VectorXd x;
+  std::vector<RegistrationVector> registrations;
+};
 
 // Predictions for one recording. Those of the last x are kept, since Ceres evaluates one sample after the other.
 class RecordingEvaluator {

@@ -139,6 +139,14 @@ SceneParameter sceneParameter(const std::string& name, const Scene& scene, const
   return parameter;
 }
 
+Eigen::VectorXd valuesAt(const std::vector<SceneParameter>& parameters, const double* x) {
+  Eigen::VectorXd values(static_cast<long>(parameters.size()));
+  for (size_t k = 0; k < parameters.size(); ++k)
+    values[static_cast<long>(k)] =  // rounding must not make a mass of zero negative
+        std::clamp(parameters[k].start + parameters[k].prior_sigma * x[k], parameters[k].low, parameters[k].high);
+  return values;
+}
+
 Scene withParameters(const Scene& scene, const std::vector<SceneParameter>& parameters, const Eigen::VectorXd& values) {
   ParametricScene<double> numbers = castScene<double>(scene);
   for (size_t k = 0; k < parameters.size(); ++k) setParameter(numbers, parameters[k], values[static_cast<long>(k)]);

@@ -38,6 +38,10 @@ SceneParameter sceneParameter(const std::string& name, const Scene& scene, const
 // All names that this scene has.
 std::vector<std::string> sceneParameterNames(const Scene& scene, const ChannelMap& channels);
 
+// Values of the parameters (SI) at x, their differences from the start in units of prior
+// sigmas; limited to their bounds.
+Eigen::VectorXd valuesAt(const std::vector<SceneParameter>& parameters, const double* x);
+
 // The scene with these values (SI) of the parameters that belong to it; other parameters are ignored.
 Scene withParameters(const Scene& scene, const std::vector<SceneParameter>& parameters, const Eigen::VectorXd& values);
 

@@ -5,9 +5,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 
-#include "calibration/rod_columns.h"
+#include "calibration/rod_sensitivities.h"
 #include "live_stiffness/checks.h"
-#include "live_stiffness/estimation/creep.h"
+#include "estimation/creep.h"
+#include "rod/statics.h"
 #include "section/load_stepping_code.h"
 
 namespace live_stiffness {
@@ -76,7 +77,7 @@ class Differentiator {
       rest_.push_back(stepper.restState(chambers.segment(at, stepper.chamberCount()), options_.stepping, steps));
       at += stepper.chamberCount();
     }
-    const TipColumns columns = tipColumns(scene_, rest_, base_moment, tip_wrench);
+    const TipSensitivities columns = tipSensitivities(scene_, rest_, base_moment, tip_wrench);
     const Matrix3 inverse = columns.residual.leftCols<3>().inverse();
     const SeedColumns d_moment = -inverse * columns.residual;  // of the base moment that keeps the residual at zero
     const SeedColumns position = columns.position + columns.position.leftCols<3>() * d_moment;

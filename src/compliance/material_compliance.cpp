@@ -7,16 +7,16 @@ namespace live_stiffness {
 double accumulateMaterial(const Chain& chain, double accuracy, Backbone& backbone, Matrix6& tip_compliance) {
   const Vector3& p = backbone.X_BT.p;
   PackedRow tip;
-  const double error = backbone.passes->accumulate(stateOf(chain, DeadLoads(), Vector3::Zero(), backbone), accuracy,
+  const double error = backbone.kernel->accumulate(stateOf(chain, DeadLoads(), Vector3::Zero(), backbone), accuracy,
                                                    {p.x(), p.y(), p.z()}, tip);
   unpack(tip, tip_compliance);
   return error;
 }
 
-double placeUnloaded(const Chain& chain, double accuracy, Backbone& backbone, Matrix6& tip_compliance) {
+double solveUnloaded(const Chain& chain, double accuracy, Backbone& backbone, Matrix6& tip_compliance) {
   SweepResult result;
   PackedRow tip;
-  const double error = backbone.passes->place_chain(stateOf(chain, DeadLoads(), Vector3::Zero(), backbone), accuracy,
+  const double error = backbone.kernel->place_chain(stateOf(chain, DeadLoads(), Vector3::Zero(), backbone), accuracy,
                                                     result, tip);
   backbone.setTip(result.R_tip, result.p_tip);
   unpack(tip, tip_compliance);

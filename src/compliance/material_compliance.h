@@ -13,6 +13,6 @@ double accumulateMaterial(const Chain& chain, double accuracy, Backbone& backbon
 
 // The same of a chain on which nothing external acts, with its shape: X_BT and elements, of which there must be enough
 // (see StaticsSolver::prepareUnloaded()). In closed form where the section bends the same in all directions.
-double placeUnloaded(const Chain& chain, double accuracy, Backbone& backbone, Matrix6& tip_compliance);
+double solveUnloaded(const Chain& chain, double accuracy, Backbone& backbone, Matrix6& tip_compliance);
 
 }  // namespace live_stiffness

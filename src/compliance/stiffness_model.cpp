@@ -6,6 +6,8 @@
 
 #include "live_stiffness/checks.h"
 #include "compliance/material_compliance.h"
+#include "compliance/station_reader.h"
+#include "compliance/stiffness_workspace.h"
 
 namespace live_stiffness {
 
@@ -20,6 +22,16 @@ const char* codeName(SolveCode code) {
   return "unknown";
 }
 
+StiffnessWorkspace::StiffnessWorkspace(std::unique_ptr<State> state) : state_(std::move(state)) {}
+StiffnessWorkspace::StiffnessWorkspace(StiffnessWorkspace&&) noexcept = default;
+StiffnessWorkspace& StiffnessWorkspace::operator=(StiffnessWorkspace&&) noexcept = default;
+StiffnessWorkspace::~StiffnessWorkspace() = default;
+
+const Backbone& StiffnessWorkspace::backbone() const { return state_->backbone; }
+const StaticsSolver& StiffnessWorkspace::statics() const { return state_->statics; }
+bool StiffnessWorkspace::loaded() const { return state_->loaded; }
+void StiffnessWorkspace::reset() { state_->statics.reset(); }
+
 StiffnessModel::StiffnessModel(Scene scene, ModelOptions options)
     : scene_(std::move(scene)),
       options_(options),
@@ -28,10 +40,15 @@ StiffnessModel::StiffnessModel(Scene scene, ModelOptions options)
   if (scene_.segmentCount() == 0) faults.add("chain: must hold at least one segment");
   faults.check("pressure_step_pa", options_.pressure_step, {100.0, 1e7});
   faults.check("accuracy", options_.accuracy, {1e-13, 1e-2});
-  if (options_.stages != 0) faults.check("stages", options_.stages, {kMinStages, kMaxStages});
   faults.throwIfAny();
   walk(
       scene_, [&](int, const Segment& segment) { steppers_.emplace_back(segment.section); }, [](const Link&) {});
+}
+
+StiffnessModel::~StiffnessModel() = default;
+
+StiffnessWorkspace StiffnessModel::makeWorkspace() const {
+  return StiffnessWorkspace(std::make_unique<StiffnessWorkspace::State>(scene_, options_.accuracy));
 }
 
 SolveStatus StiffnessModel::checkInput(PressuresRef pressures, const Wrench& tip_wrench) const {
@@ -75,35 +92,35 @@ StiffnessSolution StiffnessModel::solve(PressuresRef pressures, const Wrench& ti
 
 SolveStatus StiffnessModel::solveInto(StiffnessSolution& solution, PressuresRef pressures, const Wrench& tip_wrench,
                                       StiffnessWorkspace& workspace) const {
-  Backbone& backbone = workspace.backbone_;
+  StiffnessWorkspace::State& state = *workspace.state_;
+  Backbone& backbone = state.backbone;
   SolveStatus status = checkInput(pressures, tip_wrench);
   if (status.ok()) status = stepLoads(pressures, backbone);
   if (!status.ok()) return status;
 
-  workspace.loaded_ = options_.external_loads && (has_weight_ || !tip_wrench.isZero(0.0));
-  if (workspace.loaded_) {
-    ++workspace.statics_solves_;
+  state.loaded = options_.external_loads && (has_weight_ || !tip_wrench.isZero(0.0));
+  if (state.loaded) {
     const DeadLoads loads{scene_.gravity.value_or(Vector3::Zero()), tip_wrench};
-    const StaticsReport report = workspace.statics_.solve(loads, backbone);
+    const StaticsReport report = state.statics.solve(loads, backbone);
     solution.iterations = report.iterations;
     if (!report.converged) return {SolveCode::kNotConverged, -1, report.residual};
     if (!report.stable) return {SolveCode::kUnstable, -1, report.stable_share};
     solution.buckled = report.buckled;
-    solution.numerical_error = report.relativeError() * report.amplification;
-    const Chain& chain = workspace.statics_.chain();
+    solution.numerical_error = report.relativeError() * report.buckling_factor;
+    const Chain& chain = state.statics.chain();
     solution.numerical_error += accumulateMaterial(chain, options_.accuracy, backbone, solution.material_compliance);
-    solution.compliance = workspace.statics_.tangentCompliance();
+    solution.compliance = state.statics.tangentCompliance();
   } else {
-    workspace.statics_.prepareUnloaded(backbone);
-    const Chain& chain = workspace.statics_.chain();
-    solution.numerical_error = placeUnloaded(chain, options_.accuracy, backbone, solution.material_compliance);
+    state.statics.prepareUnloaded(backbone);
+    const Chain& chain = state.statics.chain();
+    solution.numerical_error = solveUnloaded(chain, options_.accuracy, backbone, solution.material_compliance);
     solution.compliance = solution.material_compliance;  // without external load the two are the same matrix
   }
   solution.X_BT = backbone.X_BT;
   solution.numerical_error += 1e-14;  // rounding
   // A sum is finite only if all its terms are.
   double sum = solution.X_BT.p.sum() + solution.material_compliance.sum();
-  if (workspace.loaded_) sum += solution.compliance.sum();
+  if (state.loaded) sum += solution.compliance.sum();
   if (!std::isfinite(sum)) return {SolveCode::kNotConverged, -1, 0.0};
   return {};
 }
@@ -113,7 +130,7 @@ Station StiffnessModel::station(const StiffnessWorkspace& workspace, int segment
 }
 
 void StiffnessModel::stations(const StiffnessWorkspace& workspace, int segment, StationPlan& plan, Station* out) const {
-  plan.read(workspace.backbone(), segment, {options_.accuracy, workspace.loaded()}, out);
+  plan.batches_->read(workspace.backbone(), segment, {options_.accuracy, workspace.loaded()}, out);
 }
 
 std::string StiffnessModel::describe(const SolveStatus& status) const {

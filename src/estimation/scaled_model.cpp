@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "estimation/tip_force.h"
 
 namespace live_stiffness {
 namespace {

@@ -4,6 +4,9 @@
 #include <chrono>
 #include <cmath>
 
+#include "estimation/scene_creep.h"
+#include "rod/backbone.h"
+
 namespace live_stiffness {
 namespace {
 
@@ -35,18 +38,20 @@ StiffnessEstimator::StiffnessEstimator(Scene scene, const ModelOptions& model_op
     : model_(std::move(scene), model_options), options_(checked(std::move(options))),
       workspace_(model_.makeWorkspace()), plans_(model_.scene().segmentCount(), StationPlan(options_.fractions)),
       shape_plans_(model_.scene().segmentCount(), StationPlan(evenFractions(kShapeSections))),
-      creep_(model_.scene()) {
+      creep_(std::make_unique<SceneCreep>(model_.scene())) {
   // In a workspace of its own: what comes first is still solved from rest.
   StiffnessWorkspace workspace = model_.makeWorkspace();
   model_.solve(Pressures::Zero(model_.scene().chamberCount()), Wrench::Zero(), workspace);
 }
+
+StiffnessEstimator::~StiffnessEstimator() = default;
 
 StiffnessEstimator::Outcome StiffnessEstimator::setPressures(PressuresRef pressures, double time) {
   // What the solver will refuse must not get into the creep's memory.
   if (!std::isfinite(time) || pressures.size() != model_.scene().chamberCount() || !pressures.allFinite())
     return setPressures(pressures);
   newest_pressures_ = pressures;
-  newest_effective_ = creep_.update(pressures, time);
+  newest_effective_ = creep_->update(pressures, time);
   return solveIfMoved();
 }
 

@@ -1,16 +1,14 @@
 #include "live_stiffness/estimation/tip_wrench_estimator.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "estimation/scene_creep.h"
+#include "estimation/tip_wrench_filter.h"
+
 namespace live_stiffness {
 namespace {
-
-const Material& firstMaterial(const Scene& scene) {
-  for (const Body& body : scene.chain)
-    if (const auto* segment = std::get_if<Segment>(&body)) return segment->section.material;
-  throw ConfigurationError("tip wrench estimator", {"chain: must hold at least one segment"});
-}
 
 const TipWrenchOptions& checked(const TipWrenchOptions& options) {
   FaultList faults("tip wrench estimator");
@@ -42,20 +40,24 @@ const char* codeName(TipWrenchCode code) {
 TipWrenchEstimator::TipWrenchEstimator(const Scene& scene, const ModelOptions& model_options,
                                        const TipWrenchOptions& options)
     : options_(checked(options)),
-      filter_(scene, model_options, options_),
-      creep_(firstMaterial(scene).creep_share, firstMaterial(scene).creep_time),
+      filter_(std::make_unique<TipWrenchFilter>(scene, model_options, options_)),
+      creep_(std::make_unique<SceneCreep>(scene)),
       contact_(options.contact) {
   reset();
 }
+
+TipWrenchEstimator::~TipWrenchEstimator() = default;
+
+const StiffnessModel& TipWrenchEstimator::model() const { return filter_->model(); }
 
 void TipWrenchEstimator::reset() {
   started_ = has_estimate_ = false;
   outliers_ = 0;
   code_ = TipWrenchCode::kOk;
   status_ = {};
-  filter_.reset();
+  filter_->reset();
   contact_.reset();
-  creep_.reset();
+  creep_->reset();
 }
 
 bool TipWrenchEstimator::setKnownWrench(const Wrench& known) {
@@ -137,33 +139,37 @@ bool TipWrenchEstimator::step(PressuresRef pressures, const Pose* measured, doub
   if (!accept(pressures, time)) return false;
   const double elapsed = time - time_;
   const double pressure_change = (pressures - pressures_).norm();
-  filter_.setInputs(creep_.update(pressures, elapsed), known_);
+  filter_->setInputs(creep_->update(pressures, time), known_);
   pressures_ = pressures;
   time_ = time;
 
   const bool contact = contact_.inContact();
-  TipWrenchFilter::Belief prior = filter_.predicted(elapsed, pressure_change, contact);
+  TipWrenchFilter::Belief prior = filter_->predicted(elapsed, pressure_change, contact);
   TipWrenchFilter::Correction correction;
   bool outlier = false;
   if (measured != nullptr) {
-    bool corrected = filter_.correct(*measured, prior, !contact, correction);
+    bool corrected = filter_->correct(*measured, prior, !contact, correction);
     if (!contact && (!corrected || correction.innovation > options_.robust_from)) {
       // More than a free robot would do: as if contact had begun.
-      const TipWrenchFilter::Belief touched = filter_.predicted(elapsed, pressure_change, true);
-      corrected = filter_.correct(*measured, touched, false, correction);
+      const TipWrenchFilter::Belief touched = filter_->predicted(elapsed, pressure_change, true);
+      corrected = filter_->correct(*measured, touched, false, correction);
       if (corrected) prior = touched;
     }
     outlier = corrected && isOutlier(*measured, correction.innovation);
-    if (!corrected) return fail(prior);
+    if (!corrected) {
+      filter_->accept(prior);
+      return fail();
+    }
   }
   if (measured == nullptr || outlier) {
     // An outlier tells nothing about contact, so that the robot goes on as it was.
-    if (outlier) prior = filter_.predicted(elapsed, pressure_change, contact);
+    if (outlier) prior = filter_->predicted(elapsed, pressure_change, contact);
     correction.iterations = 0;
-    if (!filter_.solveAt(prior.x, correction.solution)) return fail(prior);
-    filter_.accept(prior);
+    const bool solved = filter_->solveAt(prior.x, correction.solution);
+    filter_->accept(prior);
+    if (!solved) return fail();
   } else {
-    filter_.accept(correction.posterior);
+    filter_->accept(correction.posterior);
     updateContact(elapsed);
   }
   estimate_.outlier = outlier;
@@ -175,17 +181,16 @@ bool TipWrenchEstimator::step(PressuresRef pressures, const Pose* measured, doub
   return true;
 }
 
-// The belief ages, and the last good estimate is kept.
-bool TipWrenchEstimator::fail(const TipWrenchFilter::Belief& prior) {
-  filter_.accept(prior);
-  status_ = filter_.status();
+// The last good estimate is kept.
+bool TipWrenchEstimator::fail() {
+  status_ = filter_->status();
   code_ = TipWrenchCode::kSolveFailed;
   return false;
 }
 
 void TipWrenchEstimator::updateContact(double elapsed) {
-  const Vector3 force = linear(filter_.wrench());
-  const Matrix3 covariance = filter_.wrenchCovariance().topLeftCorner<3, 3>();
+  const Vector3 force = linear(filter_->wrench());
+  const Matrix3 covariance = filter_->wrenchCovariance().topLeftCorner<3, 3>();
   const double size = force.norm();
   const double variance = size > 0.0 ? force.dot(covariance * force) / (size * size) : covariance(0, 0);
   contact_.update(size, std::sqrt(std::max(variance, 0.0)), elapsed);
@@ -193,13 +198,13 @@ void TipWrenchEstimator::updateContact(double elapsed) {
 
 void TipWrenchEstimator::publish(const StiffnessSolution& solution, double time) {
   estimate_.time = time;
-  estimate_.wrench = filter_.wrench();
-  estimate_.covariance = filter_.wrenchCovariance();
-  estimate_.stiffness_scale = filter_.stiffnessScale();
-  estimate_.stiffness_scale_deviation = filter_.stiffnessScaleDeviation();
+  estimate_.wrench = filter_->wrench();
+  estimate_.covariance = filter_->wrenchCovariance();
+  estimate_.stiffness_scale = filter_->stiffnessScale();
+  estimate_.stiffness_scale_deviation = filter_->stiffnessScaleDeviation();
   estimate_.contact = contact_.inContact();
-  estimate_.X_BT = filter_.withModelError(solution.X_BT);
-  estimate_.model_error = filter_.modelError();
+  estimate_.X_BT = filter_->withModelError(solution.X_BT);
+  estimate_.model_error = filter_->modelError();
   estimate_.solution = solution;
   has_estimate_ = true;
 }

@@ -128,7 +128,7 @@ bool TipWrenchFilter::correct(const Pose& measured, const Belief& prior, bool le
   State x = prior.x;
   if (!solveAt(x, result.solution)) return false;
   double weight = 1.0;
-  for (result.iterations = 1; result.iterations <= kMaxIterations; ++result.iterations) {
+  for (result.iterations = 1; result.iterations <= TipWrenchEstimator::kMaxIterations; ++result.iterations) {
     const Twist residual = residualTwist(measured, withModelError(result.solution.X_BT, x));
     const Design H = designAt(x, result.solution);
     const Twist predicted = residual + H * (x - prior.x);  // innovation about the prior, linearised here
@@ -148,7 +148,7 @@ bool TipWrenchFilter::correct(const Pose& measured, const Belief& prior, bool le
     if (share == 0.0) return false;
     const Twist moved = H * (share * step);
     const bool settled = (moved.array().square() < 1e-6 * noise.array()).all();  // 1e-3 of the tracker's noise
-    if (!settled && result.iterations < kMaxIterations) continue;
+    if (!settled && result.iterations < TipWrenchEstimator::kMaxIterations) continue;
     // Joseph's form: right for any gain, so also with the scale held.
     const StateMatrix A = StateMatrix::Identity(size, size) - gain.transpose() * H;
     StateMatrix& P = result.posterior.P;

@@ -5,13 +5,12 @@
 // State x: wrench W at T (3 or 6 components), logarithm g of the stiffness scale, twist b of the model error.
 
 #include "estimation/scaled_model.h"
-#include "live_stiffness/estimation/tip_wrench_options.h"
+#include "live_stiffness/estimation/tip_wrench_estimator.h"
 
 namespace live_stiffness {
 
 class TipWrenchFilter {
  public:
-  static constexpr int kMaxIterations = 8;  // of a measurement update
   static constexpr int kMaxStates = 13;
   using State = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxStates, 1>;
   using StateMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxStates, kMaxStates>;

@@ -10,6 +10,12 @@ Pose expSe3(const Vector3& v, const Vector3& u, double s, double series_below) {
           s * (v + angleB(x, series_below) * w_cross_v + angleC(x, series_below) * w.cross(w_cross_v))};
 }
 
+Twist residualTwist(const Pose& measured_X_BT, const Pose& predicted_X_BT) {
+  Twist residual;
+  residual << measured_X_BT.p - predicted_X_BT.p, logSo3(measured_X_BT.R * predicted_X_BT.R.transpose());
+  return residual;
+}
+
 Matrix6 wrenchAdjoint(const Pose& X_AB) {
   Matrix6 adjoint;
   adjoint << X_AB.R, Matrix3::Zero(), hat(X_AB.p) * X_AB.R, X_AB.R;

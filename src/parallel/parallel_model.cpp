@@ -4,12 +4,50 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compliance/station_reader.h"
+#include "live_stiffness/checks.h"
+#include "parallel/parallel_statics.h"
+
 namespace live_stiffness {
 namespace {
 
 constexpr Range kLengths{1e-4, 1e3};  // m
 
+void complete(const ParallelReport& report, RodCoupling& coupling, double accuracy, ParallelSolution& solution) {
+  solution.iterations = report.iterations;
+  if (!report.converged) {
+    solution.status = {SolveCode::kNotConverged, -1, report.step};
+    return;
+  }
+  if (!report.stable) {
+    solution.status = {SolveCode::kUnstable, -1, 0.0};
+    return;
+  }
+  solution.X_BP = coupling.X_BP;
+  solution.compliance = coupling.platformCompliance();
+  solution.material_compliance = coupling.materialStiffness(accuracy).inverse();
+  // Towards buckling an error of the loads grows as the compliance itself does.
+  const auto compliance_norm = [](const Matrix6& C) { return C.topLeftCorner<3, 3>().norm(); };
+  const double growth = std::max(1.0, compliance_norm(solution.compliance) / compliance_norm(solution.material_compliance));
+  solution.numerical_error = growth * (report.truncation + report.step + report.iteration) + 1e-14;
+  // A sum is finite only if all its terms are.
+  if (!std::isfinite(solution.X_BP.p.sum() + solution.compliance.sum() + solution.material_compliance.sum()))
+    solution.status = {SolveCode::kNotConverged, -1, 0.0};
+}
+
 }  // namespace
+
+ParallelWorkspace::ParallelWorkspace(std::unique_ptr<ParallelStatics> statics) : statics_(std::move(statics)) {}
+ParallelWorkspace::ParallelWorkspace(ParallelWorkspace&&) noexcept = default;
+ParallelWorkspace::~ParallelWorkspace() = default;
+
+std::vector<double> ParallelWorkspace::lengths() const {
+  std::vector<double> lengths;
+  for (const ClampedRod& rod : statics_->rods()) lengths.push_back(rod.length());
+  return lengths;
+}
+
+void ParallelWorkspace::reset() { statics_->reset(); }
 
 ParallelModel::ParallelModel(ParallelScene scene, ParallelOptions options)
     : scene_(std::move(scene)), options_(options) {
@@ -17,6 +55,10 @@ ParallelModel::ParallelModel(ParallelScene scene, ParallelOptions options)
   if (scene_.rods.empty()) faults.add("rods: must hold at least one rod");
   faults.check("accuracy", options_.accuracy, {1e-13, 1e-2});
   faults.throwIfAny();
+}
+
+ParallelWorkspace ParallelModel::makeWorkspace() const {
+  return ParallelWorkspace(std::make_unique<ParallelStatics>(scene_, options_.accuracy));
 }
 
 ParallelSolution ParallelModel::solve(const std::vector<double>& lengths, const Wrench& wrench,
@@ -35,7 +77,8 @@ ParallelSolution ParallelModel::solve(const std::vector<double>& lengths, const 
     solution.status = {SolveCode::kInvalidInput, scene_.rodCount(), std::nan("")};
     return solution;
   }
-  complete(workspace.statics_->solveForPose(lengths, wrench), workspace, solution);
+  ParallelStatics& statics = *workspace.statics_;
+  complete(statics.solveForPose(lengths, wrench), statics.coupling(), options_.accuracy, solution);
   return solution;
 }
 
@@ -48,37 +91,14 @@ ParallelSolution ParallelModel::solveForLengths(const Pose& X_BP, const Wrench& 
     solution.status = {SolveCode::kInvalidInput, -3, skewness};
   else if (!wrench.allFinite()) solution.status = {SolveCode::kInvalidInput, scene_.rodCount(), std::nan("")};
   if (!solution.status.ok()) return solution;
-  complete(workspace.statics_->solveForLengths(X_BP, wrench), workspace, solution);
+  ParallelStatics& statics = *workspace.statics_;
+  complete(statics.solveForLengths(X_BP, wrench), statics.coupling(), options_.accuracy, solution);
   return solution;
-}
-
-void ParallelModel::complete(const ParallelReport& report, ParallelWorkspace& workspace,
-                             ParallelSolution& solution) const {
-  solution.iterations = report.iterations;
-  if (!report.converged) {
-    solution.status = {SolveCode::kNotConverged, -1, report.step};
-    return;
-  }
-  if (!report.stable) {
-    solution.status = {SolveCode::kUnstable, -1, 0.0};
-    return;
-  }
-  RodCoupling& coupling = workspace.statics_->coupling();
-  solution.X_BP = coupling.X_BP;
-  solution.compliance = coupling.platformCompliance();
-  solution.material_compliance = coupling.materialStiffness(options_.accuracy).inverse();
-  // Towards buckling an error of the loads grows as the compliance itself does.
-  const auto softness = [](const Matrix6& C) { return C.topLeftCorner<3, 3>().norm(); };
-  const double softened = std::max(1.0, softness(solution.compliance) / softness(solution.material_compliance));
-  solution.numerical_error = softened * (report.truncation + report.step + report.iteration) + 1e-14;
-  // A sum is finite only if all its terms are.
-  if (!std::isfinite(solution.X_BP.p.sum() + solution.compliance.sum() + solution.material_compliance.sum()))
-    solution.status = {SolveCode::kNotConverged, -1, 0.0};
 }
 
 void ParallelModel::stations(const ParallelWorkspace& workspace, int rod, const std::vector<double>& fractions,
                              std::vector<Pose>& out) const {
-  const HeldRod& held = workspace.rods()[rod];
+  const ClampedRod& held = workspace.statics().rods()[rod];
   out.resize(fractions.size());
   for (size_t i = 0; i < fractions.size(); ++i)
     out[i] = held.X_BR() * stationAt(held.backbone(), 0, fractions[i], {options_.accuracy, true}).X_BS;

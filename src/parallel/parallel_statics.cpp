@@ -43,7 +43,7 @@ bool ParallelStatics::linearise(Unknown unknown, ParallelReport& report) {
 }
 
 // Quasi-Newton: one iteration of every element, then a step with the matrices of the last linearisation, and so on.
-bool ParallelStatics::quick(Unknown unknown, ParallelReport& report) {
+bool ParallelStatics::chordIteration(Unknown unknown, ParallelReport& report) {
   constexpr int kMaxSweeps = 25;
   constexpr double kRounding = 1e-9, kLargestStep = 1.0;
   const double goal = std::max(0.5 * accuracy_, 1e-15);
@@ -71,9 +71,9 @@ bool ParallelStatics::quick(Unknown unknown, ParallelReport& report) {
 bool ParallelStatics::newton(Unknown unknown, double goal, ParallelReport& report) {
   constexpr int kMaxSteps = 30;
   constexpr double kStalled = 1e-8, kLargestStep = 3.0, kLeastShare = 1e-3;
-  if (!coupling_.marchAll()) return false;
+  if (!coupling_.integrateAll()) return false;
   for (int i = 0; i < kMaxSteps && report.iterations < kMaxIterations; ++i) {
-    if (coupling_.relieveAll() && !coupling_.marchAll()) return false;
+    if (coupling_.refineAllForLoad() && !coupling_.integrateAll()) return false;
     if (!linearise(unknown, report)) return false;
     report.step = coupling_.findStep(unknown);
     if (report.step <= goal) return true;
@@ -83,14 +83,14 @@ bool ParallelStatics::newton(Unknown unknown, double goal, ParallelReport& repor
       if (share < kLeastShare) return false;
       ++report.iterations;
       coupling_.makeStep(unknown, share);
-      const double next = coupling_.marchAll() ? coupling_.findStep(unknown) : kInfinity;
+      const double next = coupling_.integrateAll() ? coupling_.findStep(unknown) : kInfinity;
       if (next <= (1.0 - 0.25 * share) * report.step) break;
       if (report.step < kStalled) {  // limited by rounding
         report.step = std::min(next, report.step);
         return linearise(unknown, report);
       }
       coupling_.restore(kStepSlot);
-      if (!coupling_.marchAll()) return false;
+      if (!coupling_.integrateAll()) return false;
       report.step = coupling_.findStep(unknown);
     }
   }
@@ -114,7 +114,7 @@ bool ParallelStatics::follow(Set set, Unknown unknown, ParallelReport& report) {
     coupling_.restore(kPathSlot);
     set(done);
     step *= 0.5;
-    if (step < kLeastStep || !coupling_.marchAll()) return false;
+    if (step < kLeastStep || !coupling_.integrateAll()) return false;
   }
   return done >= 1.0;
 }
@@ -143,9 +143,9 @@ bool ParallelStatics::startCold(const Goal& goal, ParallelReport& report) {
   for (size_t i = 0; i < start_lengths_.size(); ++i)
     start_lengths_[i] = lengthOfCurve(scene_.rods[i], coupling_.X_BP);
   coupling_.placeStraight(start_lengths_);
-  const bool attached = follow([&](double share) { coupling_.attached = share; }, Unknown::kFreeLengths, report);
-  coupling_.attached = 1.0;
-  if (!attached || (coupling_.chooseAll() && !coupling_.marchAll())) return false;
+  const bool homotopy = follow([&](double share) { coupling_.homotopy = share; }, Unknown::kFreeLengths, report);
+  coupling_.homotopy = 1.0;
+  if (!homotopy || (coupling_.chooseAll() && !coupling_.integrateAll())) return false;
   coupling_.wrench = coupling_.wrenchOfRods();
   return followInputs(goal, report);
 }
@@ -156,9 +156,9 @@ bool ParallelStatics::finish(Unknown unknown, ParallelReport& report) {
   if (!linearise(unknown, report)) return false;
   for (int i = 0;; ++i) {
     report.truncation = kMisfit * coupling_.largestTruncation();
-    bool refined = coupling_.relieveAll();
+    bool refined = coupling_.refineAllForLoad();
     if (i < kMaxRefinements)
-      for (HeldRod& rod : coupling_.rods()) refined = rod.refine(kMisfit) || refined;
+      for (ClampedRod& rod : coupling_.rods()) refined = rod.refine(kMisfit) || refined;
     if (!refined) return coupling_.platformCompliance().allFinite();
     if (!newton(unknown, kFinest, report)) return false;
   }
@@ -176,11 +176,11 @@ ParallelReport ParallelStatics::solve(const Goal& goal) {
     const Wrench last_wrench = coupling_.wrench;
     coupling_.save(kPathSlot);
     setInputs(goal, last_wrench);
-    report.converged = quick(goal.unknown, report) && finish(goal.unknown, report);
+    report.converged = chordIteration(goal.unknown, report) && finish(goal.unknown, report);
     if (!report.converged) {
       coupling_.restore(kPathSlot);
       coupling_.wrench = last_wrench;
-      report.converged = coupling_.marchAll() && followInputs(goal, report) && finish(goal.unknown, report);
+      report.converged = coupling_.integrateAll() && followInputs(goal, report) && finish(goal.unknown, report);
     }
     report.stable = report.converged && isStable();
   }

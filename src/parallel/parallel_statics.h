@@ -11,7 +11,7 @@ struct ParallelReport {
   int iterations = 0;          // sweeps and converged shots over all rods, all attempts together
   double step = 0.0;           // size of the step that was left to make, rad
   double truncation = 0.0;     // estimated relative error of discretisation
-  double iteration = 0.0;      // estimated relative error of shape and columns, left by their last passes
+  double iteration = 0.0;      // estimated relative error of shape and columns, left by their last iterations
 };
 
 class ParallelStatics {
@@ -20,7 +20,7 @@ class ParallelStatics {
   using Unknown = RodCoupling::Unknown;
 
   // accuracy: relative, of pose and compliance.
-  ParallelStatics(const ParallelScene& scene, double accuracy, Simd simd);
+  ParallelStatics(const ParallelScene& scene, double accuracy, Simd simd = Simd::kBest);
   ParallelStatics(const ParallelStatics&) = delete;  // its parts refer to one another
 
   // Solves for the platform pose under a dead wrench at P (base axes). lengths: positive, one a rod, m. Starts from the
@@ -35,7 +35,7 @@ class ParallelStatics {
   void reset() { warm_ = false; }
   // Shape and tangent of the last solve.
   RodCoupling& coupling() { return coupling_; }
-  const RodCoupling& coupling() const { return coupling_; }
+  const std::deque<ClampedRod>& rods() const { return coupling_.rods(); }
 
  private:
   struct Goal {
@@ -46,7 +46,7 @@ class ParallelStatics {
   };
   ParallelReport solve(const Goal& goal);
   void setInputs(const Goal& goal, const Wrench& last_wrench);
-  bool quick(Unknown unknown, ParallelReport& report);
+  bool chordIteration(Unknown unknown, ParallelReport& report);
   bool newton(Unknown unknown, double goal, ParallelReport& report);
   template <class Set>
   bool follow(Set set, Unknown unknown, ParallelReport& report);

@@ -47,35 +47,35 @@ void RodCoupling::placeStraight(const std::vector<double>& lengths) {
 
 Pose RodCoupling::targetOf(size_t i) const {
   const Pose place = X_BP * scene_.rods[i].X_PE;
-  if (attached >= 1.0) return place;
+  if (homotopy >= 1.0) return place;
   const Pose straight = scene_.rods[i].X_BR * Pose{Matrix3::Identity(), straight_lengths_[i] * Vector3::UnitZ()};
-  return {expSo3(attached * logSo3(place.R * straight.R.transpose())) * straight.R,
-          straight.p + attached * (place.p - straight.p)};
+  return {expSo3(homotopy * logSo3(place.R * straight.R.transpose())) * straight.R,
+          straight.p + homotopy * (place.p - straight.p)};
 }
 
-bool RodCoupling::marchAll() {
-  for (HeldRod& rod : rods_)
-    if (!rod.march()) return false;
+bool RodCoupling::integrateAll() {
+  for (ClampedRod& rod : rods_)
+    if (!rod.integrate()) return false;
   return true;
 }
 
 bool RodCoupling::chooseAll() {
   bool changed = false;
-  for (HeldRod& rod : rods_) changed = rod.choose() || changed;
+  for (ClampedRod& rod : rods_) changed = rod.choose() || changed;
   return changed;
 }
 
-bool RodCoupling::relieveAll() {
+bool RodCoupling::refineAllForLoad() {
   bool changed = false;
-  for (HeldRod& rod : rods_) changed = rod.relieve() || changed;
+  for (ClampedRod& rod : rods_) changed = rod.refineForLoad() || changed;
   return changed;
 }
 
 double RodCoupling::sweepAll() {
   double change = 0.0;
-  for (HeldRod& rod : rods_) {
+  for (ClampedRod& rod : rods_) {
     const Sweep sweep = rod.sweepOnce();
-    if (!sweep.sound) return kInfinity;
+    if (!sweep.is_admissible) return kInfinity;
     change = std::max(change, sweep.change);
   }
   return change;
@@ -93,7 +93,7 @@ void RodCoupling::addStiffness(size_t i, const Matrix6& K, Matrix6& sum) const {
 
 double RodCoupling::linearise(double goal) {
   double left = 0.0;
-  for (HeldRod& rod : rods_) {
+  for (ClampedRod& rod : rods_) {
     left = std::max(left, rod.linearise(goal));
     if (!std::isfinite(left)) return kInfinity;
   }
@@ -111,7 +111,7 @@ double RodCoupling::linearise(double goal) {
 void RodCoupling::assembleLengths() {
   Matrix6 of_lengths;
   for (size_t i = 0; i < 6; ++i) {
-    const HeldRod& rod = rods_[i];
+    const ClampedRod& rod = rods_[i];
     of_lengths.col(i) = aboutP(rod.wrenchOfLength() - rod.stiffness() * rod.twistOfLength(), leverOf(i));
   }
   length_inverse_ = of_lengths.inverse();
@@ -121,7 +121,7 @@ void RodCoupling::assembleLengths() {
 double RodCoupling::findPrediction(const std::vector<double>& length_changes, const Wrench& wrench_change) {
   Wrench imbalance = wrench_change;
   for (size_t i = 0; i < rods_.size(); ++i) {
-    const HeldRod& rod = rods_[i];
+    const ClampedRod& rod = rods_[i];
     errors_[i] = -length_changes[i] * rod.twistOfLength();
     imbalance -= aboutP(length_changes[i] * rod.wrenchOfLength() + rod.stiffness() * errors_[i], leverOf(i));
   }
@@ -131,7 +131,7 @@ double RodCoupling::findPrediction(const std::vector<double>& length_changes, co
 double RodCoupling::findStep(Unknown unknown) {
   Wrench imbalance = wrench + aboutP((Wrench() << scene_.platformWeight(), Vector3::Zero()).finished(), centre());
   for (size_t i = 0; i < rods_.size(); ++i) {
-    const HeldRod& rod = rods_[i];
+    const ClampedRod& rod = rods_[i];
     const Pose X_BE = rod.X_BE(), target = targetOf(i);
     linear(errors_[i]) = target.p - X_BE.p;
     angular(errors_[i]) = logSo3(target.R * X_BE.R.transpose());
@@ -159,7 +159,7 @@ double RodCoupling::solveStep(Unknown unknown, const Wrench& imbalance) {
   }
   double size = angular(twist_step_).norm();
   for (size_t i = 0; i < rods_.size(); ++i) {
-    const HeldRod& rod = rods_[i];
+    const ClampedRod& rod = rods_[i];
     Twist end = errors_[i];
     if (unknown == Unknown::kPose) end += atLever(twist_step_, leverOf(i));
     else end -= length_step_[i] * rod.twistOfLength();
@@ -201,12 +201,12 @@ Matrix6 RodCoupling::materialStiffness(double accuracy) {
 }
 
 bool RodCoupling::rodsAreStable() const {
-  return std::all_of(rods_.begin(), rods_.end(), [](const HeldRod& rod) { return rod.isStableHeld(); });
+  return std::all_of(rods_.begin(), rods_.end(), [](const ClampedRod& rod) { return rod.isStableClamped(); });
 }
 
 double RodCoupling::largestTruncation() const {
   double largest = 0.0;
-  for (const HeldRod& rod : rods_) largest = std::max(largest, rod.truncation());
+  for (const ClampedRod& rod : rods_) largest = std::max(largest, rod.truncation());
   return largest;
 }
 

@@ -11,7 +11,7 @@
 
 #include <deque>
 
-#include "parallel/held_rod.h"
+#include "parallel/clamped_rod.h"
 
 namespace live_stiffness {
 
@@ -26,20 +26,20 @@ class RodCoupling {
   Pose X_BP;
   Wrench wrench = Wrench::Zero();  // dead wrench on the platform at P beside its weight, base axes
   // Share of the way from straight rods, at the lengths of placeStraight(), to the platform that the rods' ends are at.
-  double attached = 1.0;
+  double homotopy = 1.0;
 
-  std::deque<HeldRod>& rods() { return rods_; }
-  const std::deque<HeldRod>& rods() const { return rods_; }
+  std::deque<ClampedRod>& rods() { return rods_; }
+  const std::deque<ClampedRod>& rods() const { return rods_; }
   void placeStraight(const std::vector<double>& lengths);
 
   // Converged shapes of all rods. False if one cannot be found.
-  bool marchAll();
-  // choose() or relieve() of all rods; true if that changed one.
+  bool integrateAll();
+  // choose() or refineForLoad() of all rods; true if that changed one.
   bool chooseAll();
-  bool relieveAll();
-  // One pass over all rods. Returns the largest change, infinity if one is not sound.
+  bool refineAllForLoad();
+  // One iteration of all rods. Returns the largest change, infinity if one is not admissible.
   double sweepAll();
-  // All rods and the platform; columns to `goal`. Returns what the passes left; infinity without success.
+  // All rods and the platform; columns to `goal`. Returns what the iterations left; infinity without success.
   double linearise(double goal);
   // After it, what kLengths needs besides. Six rods only.
   void assembleLengths();
@@ -81,7 +81,7 @@ class RodCoupling {
   };
 
   const ParallelScene& scene_;
-  std::deque<HeldRod> rods_;
+  std::deque<ClampedRod> rods_;
   std::vector<double> straight_lengths_;
   std::vector<Twist> errors_;       // of the rods' ends, base axes
   std::vector<Vector6> load_step_;

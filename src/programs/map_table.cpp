@@ -1,11 +1,12 @@
 #include "map_table.h"
 
+#include <tbb/parallel_for.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "analysis/parallel_loop.h"
 
 namespace live_stiffness {
 namespace {
@@ -101,9 +102,8 @@ std::string MapTable::textOf(long first, const std::vector<SweepRow>& rows, size
 void MapTable::write(long first, const std::vector<SweepRow>& rows) {
   constexpr size_t kPart = 512;
   std::vector<std::string> texts((rows.size() + kPart - 1) / kPart);
-  parallelLoop(static_cast<long>(texts.size()), 1, [&](long begin, long end) {
-    for (size_t part = begin; part != static_cast<size_t>(end); ++part)
-      texts[part] = textOf(first, rows, part * kPart, std::min(rows.size(), (part + 1) * kPart));
+  tbb::parallel_for(size_t{0}, texts.size(), [&](size_t part) {
+    texts[part] = textOf(first, rows, part * kPart, std::min(rows.size(), (part + 1) * kPart));
   });
   for (const std::string& text : texts) std::fwrite(text.data(), 1, text.size(), csv_);
   if (npy_) writeArray(first, rows);

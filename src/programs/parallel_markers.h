@@ -1,7 +1,7 @@
 #pragma once
 // Pictures of a parallel robot for rviz.
 
-#include "live_stiffness/estimation/parallel_estimator.h"
+#include "parallel/parallel_estimator.h"
 #include "ros/marker_shapes.h"
 
 namespace live_stiffness {

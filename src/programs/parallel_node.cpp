@@ -16,7 +16,7 @@
 #include "ros/any_type_subscriber.h"
 #include "ros/clock_status.h"
 #include "ros/node_process.h"
-#include "ros/parallel_parameters.h"
+#include "programs/parallel_parameters.h"
 #include "ros/pose_output.h"
 #include "ros/solver_report.h"
 #include "ros/wrench_input.h"

@@ -59,7 +59,7 @@ class ParallelRig {
     }
     RodLengths message;
     message.header.stamp = now;
-    for (const HeldRod& rod : workspace_.rods()) message.length.push_back(rod.length());
+    message.length = workspace_.lengths();
     lengths_.publish(message);
   }
 

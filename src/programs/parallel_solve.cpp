@@ -78,7 +78,7 @@ long solvePoses(const ParallelModel& model, const RodShapes& shapes) {
     workspace.reset();
     const auto start = Clock::now();
     ResultRow row = resultOf(model, model.solveForLengths(X_BP, input.wrench, workspace), start);
-    for (const HeldRod& rod : workspace.rods()) row.more.push_back(rod.length());
+    for (double length : workspace.lengths()) row.more.push_back(length);
     shapes.append(model, workspace, row);
     return row;
   });

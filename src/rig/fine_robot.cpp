@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "live_stiffness/checks.h"
+#include "section/section_moments.h"
 
 namespace live_stiffness {
 namespace {
@@ -63,7 +64,7 @@ bool FineRobot::loadSegments(PressuresRef pressures, std::vector<LoadedSegment>&
     const SectionMoments section(segment->section);
     Vector3 state;
     const Load load{chambers.actuationForce(own), chambers.actuationMoment(own, 1.0),
-                    segment->section.chamberStiffness(own)};
+                    chamberStiffness(segment->section, own)};
     if (!followLoad(section, load, state)) return false;
     LoadedSegment& loaded = segments.emplace_back();
     loaded.length = state[0] * segment->length;

@@ -11,6 +11,7 @@
 
 #include "live_stiffness/lie/se3.h"
 #include "live_stiffness/rod/scene.h"
+#include "section/section_moments.h"
 
 namespace live_stiffness {
 

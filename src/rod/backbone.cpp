@@ -5,7 +5,7 @@
 namespace live_stiffness {
 
 Backbone::Backbone(const Scene& scene, Simd simd)
-    : passes(&elementPasses(kMaxStages, simd)),
+    : kernel(&elementKernel(kMaxStages, simd)),
       rest(scene.segmentCount()),
       element_count(scene.segmentCount(), 1),
       simd_(simd) {
@@ -18,7 +18,7 @@ int Backbone::firstElement(int segment) const {
 
 bool Backbone::resize(int stages) {
   const size_t count = std::accumulate(element_count.begin(), element_count.end(), size_t{0});
-  bool changed = count != elements.size() || stages != passes->stages;
+  bool changed = count != elements.size() || stages != kernel->stages;
   if (!changed) {
     // The total may be the same although single segments have other numbers.
     size_t next = 0;
@@ -31,7 +31,7 @@ bool Backbone::resize(int stages) {
   size_t next = 0;
   for (size_t segment = 0; segment < element_count.size(); ++segment)
     for (int k = 0; k < element_count[segment]; ++k) elements[next++].state.segment = static_cast<int>(segment);
-  passes = &elementPasses(stages, simd_);
+  kernel = &elementKernel(stages, simd_);
   return true;
 }
 

@@ -10,7 +10,7 @@ namespace live_stiffness {
 
 // Mutable result of a solve; built once for a scene, then reused without allocation.
 struct Backbone {
-  const ElementPasses* passes;         // functions that compute the elements; the same for all
+  const ElementKernel* kernel;         // functions that compute the elements; the same for all
   std::vector<RestState> rest;         // one per segment
   std::vector<int> element_count;      // one per segment
   std::vector<RodElement> elements;    // base to tip, element_count[k] of segment k; inside `capacity`

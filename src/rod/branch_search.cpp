@@ -28,11 +28,11 @@ DeadLoads withForce(DeadLoads loads, const Vector3& force) {
 }
 
 // Largest translation that a unit force at the tip can cause (m/N), and the direction of that force.
-struct SoftestDirection {
+struct MostCompliantDirection {
   Vector3 direction;
   double compliance;
 
-  explicit SoftestDirection(const Matrix3& C) {
+  explicit MostCompliantDirection(const Matrix3& C) {
     const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(0.5 * (C + C.transpose()));
     direction = eigen.eigenvectors().col(2);
     compliance = eigen.eigenvalues()[2];
@@ -42,10 +42,10 @@ struct SoftestDirection {
 // Direction in which the robot yields: the last motion of the tip, weighted by the compliance. For a straight column, which
 // has not moved laterally, the most compliant direction.
 Vector3 directionOfCollapse(const Matrix3& C, const Vector3& moved) {
-  const SoftestDirection softest(C);
-  const Vector3 softly = C * (C * moved);
-  if (softly.norm() > 1e-9 * softest.compliance * softest.compliance * moved.norm()) return softly.normalized();
-  return softest.direction;
+  const MostCompliantDirection most_compliant(C);
+  const Vector3 yielding = C * (C * moved);
+  if (yielding.norm() > 1e-9 * most_compliant.compliance * most_compliant.compliance * moved.norm()) return yielding.normalized();
+  return most_compliant.direction;
 }
 
 // The last steps towards a target, from which the next one is extrapolated.
@@ -111,7 +111,7 @@ bool BranchSearch::follow(const DeadLoads& target, double least_advance) {
     const double trial = std::min(1.0, share_ + advance);
     const Equilibrium expected = path.at(trial);
     const DeadLoads loads = between(start, target, trial);
-    const std::optional<Equilibrium> next = finder_.settle(loads, expected.base_moment);
+    const std::optional<Equilibrium> next = finder_.solve(loads, expected.base_moment);
     if (!next || !next->stable || jumped(*next, expected)) {
       lost_stability_ = next.has_value();
       advance *= 0.4;
@@ -129,12 +129,12 @@ bool BranchSearch::follow(const DeadLoads& target, double least_advance) {
   return true;
 }
 
-bool BranchSearch::runBriskly(const DeadLoads& loads, const Equilibrium& unloaded, int steps) {
+bool BranchSearch::runCoarse(const DeadLoads& loads, const Equilibrium& unloaded, int steps) {
   Path path(0.0, unloaded);
   for (int i = 1; i <= steps; ++i) {
     const double share = static_cast<double>(i) / steps;
     const Equilibrium expected = path.at(share);
-    const std::optional<Equilibrium> next = finder_.settle(between(DeadLoads(), loads, share), expected.base_moment);
+    const std::optional<Equilibrium> next = finder_.solve(between(DeadLoads(), loads, share), expected.base_moment);
     if (!next || !next->stable || (i > 1 && jumped(*next, expected))) return false;
     path.add(share, *next);
   }
@@ -150,7 +150,7 @@ bool BranchSearch::goAround(const DeadLoads& target, const Vector3& push, Branch
 }
 
 BranchEnd BranchSearch::run(const DeadLoads& loads) {
-  const std::optional<Equilibrium> unloaded = finder_.settle(DeadLoads(), Vector3::Zero());
+  const std::optional<Equilibrium> unloaded = finder_.solve(DeadLoads(), Vector3::Zero());
   if (!unloaded) return BranchEnd::kNotConverged;
   loads_ = DeadLoads();
   at_ = *unloaded;
@@ -158,8 +158,8 @@ BranchEnd BranchSearch::run(const DeadLoads& loads) {
   stable_share_ = share_;
   if (followed) return BranchEnd::kLoading;
   // Just beyond a fold there is no equilibrium nearby. But before it the compliance grows, as 1 / sqrt(distance to the fold).
-  const double compliance = SoftestDirection(at_.tangent.topLeftCorner<3, 3>()).compliance;
-  const double unloaded_compliance = SoftestDirection(unloaded->tangent.topLeftCorner<3, 3>()).compliance;
+  const double compliance = MostCompliantDirection(at_.tangent.topLeftCorner<3, 3>()).compliance;
+  const double unloaded_compliance = MostCompliantDirection(unloaded->tangent.topLeftCorner<3, 3>()).compliance;
   const bool at_fold = compliance > kFoldGrowth * unloaded_compliance;
   if (finder_.exhausted() || !(lost_stability_ || at_fold)) return BranchEnd::kNotConverged;
 

@@ -27,7 +27,7 @@ class EquilibriumFinder {
  public:
   virtual ~EquilibriumFinder() = default;
   // The equilibrium to which the solver converges from the guessed base moment, if it does.
-  virtual std::optional<Equilibrium> settle(const DeadLoads& loads, const Vector3& base_moment) = 0;
+  virtual std::optional<Equilibrium> solve(const DeadLoads& loads, const Vector3& base_moment) = 0;
   // Moment as bending of the most compliant segment over its length, rad.
   virtual double bendingOf(const Vector3& moment) const = 0;
   // True once the bound on iterations is reached.
@@ -46,12 +46,12 @@ class BranchSearch {
   // length: of the robot, m.
   BranchSearch(EquilibriumFinder& finder, double length) : finder_(finder), length_(length) {}
 
-  // From zero load to `loads`. For kLoading and kBuckled the last settle() of the finder is the result.
+  // From zero load to `loads`. For kLoading and kBuckled the last solve() of the finder is the result.
   BranchEnd run(const DeadLoads& loads);
 
   // The same for small loads, in this number of equal steps (at least one). Up to the first step there must be only one
   // equilibrium. unloaded: base moment and tip at zero load. Reads no tangents. True: kLoading; false: call run().
-  bool runBriskly(const DeadLoads& loads, const Equilibrium& unloaded, int steps);
+  bool runCoarse(const DeadLoads& loads, const Equilibrium& unloaded, int steps);
 
   // Share of the loads up to which the branch from zero load was seen to be stable.
   double stableShare() const { return stable_share_; }

@@ -1,16 +1,16 @@
 #pragma once
 // Elements and rigid links one after the other, from base to tip. See docs/derivation.md, section 2 and 5.
 
-#include "rod/element_columns_code.h"
+#include "rod/element_sensitivities_code.h"
 #include "rod/element_shape_code.h"
 #include "rod/material_choice_code.h"
-#include "rod/place_code.h"
+#include "rod/section_state_code.h"
 
 namespace live_stiffness {
 namespace {
 
 // Derivatives across a rigid part, base axes; n: the force that acts on its lever.
-LIVE_STIFFNESS_INLINE void carryColumns(const double (&along)[3], const double (&n)[3], ElementColumns& at) {
+LIVE_STIFFNESS_INLINE void carrySensitivities(const double (&along)[3], const double (&n)[3], ElementSensitivities& at) {
   for (int k = 0; k < 6; ++k) {
     double moved[3], moment[3];
     crossInto(at.phi[k], along[0], along[1], along[2], moved);
@@ -23,9 +23,9 @@ LIVE_STIFFNESS_INLINE void carryColumns(const double (&along)[3], const double (
 }
 
 template <int kStages>
-struct ChainPasses {
+struct ChainKernel {
   using S = Shape<kStages>;
-  using C = Columns<kStages>;
+  using C = Sensitivities<kStages>;
   using M = MaterialChoice<kStages>;
 
   // Calls on_link(link's length, weight) and on_element(element, it is the last body), base to tip.
@@ -54,40 +54,40 @@ struct ChainPasses {
   }
   typedef double Vector[3];
 
-  static void sweep(const ChainState& chain, Pass kind, SweepResult& result) {
+  static void sweep(const ChainState& chain, SweepMode kind, SweepResult& result) {
     const bool has_offset = hasOffset(chain);
-    Place at(chain.base_force, chain.base_moment);
+    SectionState at(chain.base_force, chain.base_moment);
     double change = 0.0;
-    bool sound = true;
+    bool is_admissible = true;
     walk(
         chain, [&](const Vector& piece, const Vector& weight) { at.cross(piece, weight); },
         [&](ElementState& e, bool last) {
           at.enter(e);
           switch (kind) {
-            case Pass::kFinish: S::pass(e); [[fallthrough]];
-            case Pass::kShape: S::evaluate(e); break;
-            case Pass::kOnce:
-              S::pass(e);
+            case SweepMode::kFinish: S::iterate(e); [[fallthrough]];
+            case SweepMode::kShape: S::evaluate(e); break;
+            case SweepMode::kOnce:
+              S::iterate(e);
               if (!last || has_offset) S::endRotation(e);
               break;
-            case Pass::kUnloaded: S::placeUnloaded(e); break;
-            case Pass::kAnew:
+            case SweepMode::kUnloaded: S::placeUnloaded(e); break;
+            case SweepMode::kCold:
               S::resetGuess(e);
-              sound = S::integrate(e) && sound;
+              is_admissible = S::integrate(e) && is_admissible;
           }
           at.leave(e);
           change = largerOf(e.change, change);
-          sound = sound && S::isSound(e);
+          is_admissible = is_admissible && S::isAdmissible(e);
         });
-    if (has_offset) at.cross(chain.tip_offset, kNothing);
-    if (kind != Pass::kOnce) {
+    if (has_offset) at.cross(chain.tip_offset, kZero);
+    if (kind != SweepMode::kOnce) {
       copy(*at.R, result.R_tip);
       copy(at.p, result.p_tip);
     }
     double finite = 0.0;
     for (int i = 0; i < 3; ++i) finite += result.residual[i] = (*at.m)[i] - chain.tip_moment[i];
     result.change = change;
-    result.sound = sound && __builtin_isfinite(finite);
+    result.is_admissible = is_admissible && __builtin_isfinite(finite);
   }
 
   static void followAll(const ChainState& chain, const double (&base_moment_change)[3]) {
@@ -96,34 +96,34 @@ struct ChainPasses {
         [&](ElementState& e, bool) { S::follow(e, base_moment_change); });
   }
 
-  static double columns(const ChainState& chain, bool anew, ColumnSet set, double goal, bool with_defect,
-                        ElementColumns& tip) {
+  static double columns(const ChainState& chain, bool cold, SensitivitySet set, double goal, bool with_adjoint,
+                        ElementSensitivities& tip) {
     // At the base: the moment changes, and nothing moves.
-    static constexpr ElementColumns kBase = {{}, {}, {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}, {}};
+    static constexpr ElementSensitivities kBase = {{}, {}, {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}, {}};
     const bool has_offset = hasOffset(chain);
-    ElementColumns room[2];
-    const ElementColumns* start = &kBase;
+    ElementSensitivities room[2];
+    const ElementSensitivities* start = &kBase;
     // The adjoint-weighted residual is a sum over elements; each adds its own part.
-    const double part_goal = with_defect ? goal / countElements(chain) : goal;
+    const double part_goal = with_adjoint ? goal / countElements(chain) : goal;
     double left = 0.0;
-    Place at(chain.base_force, kNothing);
-    const auto other = [&]() -> ElementColumns& { return start == &room[0] ? room[1] : room[0]; };
-    const auto carry = [&](const Vector& piece, const Vector& weight, ElementColumns& end) {
-      const Place::Rigid rigid = at.cross(piece, weight);
+    SectionState at(chain.base_force, kZero);
+    const auto other = [&]() -> ElementSensitivities& { return start == &room[0] ? room[1] : room[0]; };
+    const auto carry = [&](const Vector& piece, const Vector& weight, ElementSensitivities& end) {
+      const SectionState::Rigid rigid = at.cross(piece, weight);
       end = *start;
-      carryColumns(rigid.along, rigid.force, end);
+      carrySensitivities(rigid.along, rigid.force, end);
       start = &end;
     };
     walk(
         chain, [&](const Vector& piece, const Vector& weight) { carry(piece, weight, other()); },
         [&](ElementState& e, bool last) {
-          ElementColumns& end = last && !has_offset ? tip : other();
-          const double own = C::propagate(e, anew, *start, set, part_goal, with_defect, end);
-          left = with_defect ? left + own : largerOf(own, left);
+          ElementSensitivities& end = last && !has_offset ? tip : other();
+          const double own = C::propagate(e, cold, *start, set, part_goal, with_adjoint, end);
+          left = with_adjoint ? left + own : largerOf(own, left);
           start = &end;
           at.leave(e);
         });
-    if (has_offset) carry(chain.tip_offset, kNothing, tip);
+    if (has_offset) carry(chain.tip_offset, kZero, tip);
     if (start != &tip) tip = *start;
     return left;
   }
@@ -131,7 +131,7 @@ struct ChainPasses {
   static LIVE_STIFFNESS_INLINE void addCompliance(ElementState& e) {
     copy(e.start_compliance, e.end_compliance);
     if (!e.is_arc) add(e.compliance, e.end_compliance);
-    if (!isNothing(e.end_compliance)) shiftOne(e.offset_end, e.end_compliance);
+    if (!isZero(e.end_compliance)) shiftOne(e.offset_end, e.end_compliance);
     if (e.is_arc) add(e.compliance, e.end_compliance);  // about its end as it is
   }
 
@@ -179,11 +179,11 @@ struct ChainPasses {
   }
 
   static double placeChain(const ChainState& chain, double accuracy, SweepResult& result, PackedRow& compliance) {
-    Place at(kNothing, kNothing);
+    SectionState at(kZero, kZero);
     Passed passed;
     double error = 0.0;
     walk(
-        chain, [&](const Vector& piece, const Vector&) { at.cross(piece, kNothing); },
+        chain, [&](const Vector& piece, const Vector&) { at.cross(piece, kZero); },
         [&](ElementState& e, bool) {
           at.enter(e);
           const double bending = e.length * e.length * squaredNorm(e.rest_curvature);
@@ -198,7 +198,7 @@ struct ChainPasses {
           error += e.compliance_error;
           at.leave(e);
         });
-    if (hasOffset(chain)) at.cross(chain.tip_offset, kNothing);
+    if (hasOffset(chain)) at.cross(chain.tip_offset, kZero);
     copy(*at.R, result.R_tip);
     copy(at.p, result.p_tip);
     passed.finish(at.p, compliance);

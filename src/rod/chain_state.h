@@ -27,17 +27,17 @@ struct ChainState {
 
 // Result of one iteration over all elements, from base to tip.
 struct SweepResult {
-  double R_tip[9], p_tip[3];  // of T; not after Pass::kOnce
+  double R_tip[9], p_tip[3];  // of T; not after SweepMode::kOnce
   double residual[3];         // moment at T that no load balances, N m, base axes
   double change;              // largest change of an element
-  bool sound;                 // finite, and no element bent too far
+  bool is_admissible;                 // finite, and no element bent too far
 };
 
-enum class Pass {
+enum class SweepMode {
   kOnce,      // one fixed-point iteration of each element
   kShape,     // no iteration: evaluates the shape of the guess, and its end
   kFinish,    // kOnce, then kShape
-  kAnew,      // integrates every element without a guess
+  kCold,      // integrates every element without a guess
   kUnloaded,  // sets every element to its shape without loads, as a guess
 };
 

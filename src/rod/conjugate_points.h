@@ -13,9 +13,12 @@
 
 namespace live_stiffness {
 
-// True if the end of an element, or a section before it, is conjugate to the base. The elements need the sensitivities of
-// tipColumns(), and must be short enough to be stable with both ends clamped; all that converge are. Exact without a dead
+// Number of conjugate points from the base to the tip, with multiplicity. The elements need the sensitivities of
+// tipSensitivities(), and must be short enough to be stable with both ends clamped; all that converge are. Exact without a dead
 // tip moment, which has no potential.
-bool hasConjugatePoint(const Backbone& backbone);
+int conjugatePoints(const Backbone& backbone);
+
+// Number of eigenvalues of G that are not positive; G must have three real ones. 3 if G is not finite.
+int negativeEigenvalues(const Matrix3& G);
 
 }  // namespace live_stiffness

@@ -6,18 +6,21 @@
 namespace live_stiffness {
 namespace {
 
-// One element of S stages that bends by x rad leaves an error of about (x / kReach[S])^(2 S).
-constexpr double kReach[kMaxStages + 1] = {0, 0, 3.5, 4.7, 5.0, 5.0, 5.7, 5.8};
 constexpr double kLeastDemand = 1e-3;
 
-// Stages to choose from, and what an element costs with them, relative (docs/speed_against_error.md).
+// Stages to choose from, and what an element costs with them, relative (docs/speed_against_error.md). One element of S
+// stages that bends by x rad leaves an error of about (x / reach)^(2 S).
 constexpr struct {
   int stages;
-  double cost;
-} kChoices[] = {{3, 0.5}, {5, 0.85}, {7, 1.0}};
+  double reach, cost;
+} kChoices[] = {{3, 4.7, 0.5}, {5, 5.0, 0.85}, {7, 5.8, 1.0}};
 
 // Bending of an element that the accuracy allows, rad.
-double bendingOfAnElement(int stages, double accuracy) { return kReach[stages] * std::pow(accuracy, 0.5 / stages); }
+double bendingOfAnElement(int stages, double accuracy) {
+  for (const auto& choice : kChoices)
+    if (choice.stages == stages) return choice.reach * std::pow(accuracy, 0.5 / stages);
+  return 0.0;
+}
 
 int countOf(double demand, double bending) {
   const double elements = demand / bending;
@@ -31,7 +34,7 @@ int countOf(double demand, double bending) {
 // are similar. With this factor the error of 99.9 % of random cases is below ten times the estimate
 // (docs/speed_against_error.md).
 double truncationOf(const RodElement& element, double cancellation) {
-  return 16.0 * element.state.truncation * element.state.truncation + cancellation * element.state.column_truncation;
+  return 16.0 * element.state.truncation * element.state.truncation + cancellation * element.state.sensitivity_truncation;
 }
 
 }  // namespace
@@ -40,13 +43,12 @@ Discretisation::Discretisation(const Chain& chain, double accuracy, int stages)
     : chain_(chain), accuracy_(accuracy) {
   for (const Chain::Part& part : chain.parts)
     if (part.segment >= 0) demand_.push_back(0.0);
-  caution_ = seen_caution_ = std::vector<double>(demand_.size(), 1.0);
+  safety_factor_ = seen_safety_factor_ = std::vector<double>(demand_.size(), 1.0);
   // For a nearly straight rod the estimate is unreliable and too small for few stages, so these are not used at high accuracy.
   const int least = accuracy >= 1e-6 ? 3 : accuracy >= 1e-10 ? 5 : 7;
   for (const auto& choice : kChoices)
     if (stages == choice.stages || (stages == 0 && choice.stages >= least))
       choices_.push_back({choice.stages, choice.cost, bendingOfAnElement(choice.stages, accuracy)});
-  if (choices_.empty()) choices_.push_back({stages, 1.0, bendingOfAnElement(stages, accuracy)});
 }
 
 // The shape is exact with any number of stages; they only decide from how many nodes stations are interpolated.
@@ -65,7 +67,7 @@ bool Discretisation::chooseUnloaded(Backbone& backbone) {
 }
 
 bool Discretisation::choose(const DeadLoads& loads, Backbone& backbone) {
-  constexpr double kBendingOfLoadNumber = 1.25;  // rad of bending for each unit of L sqrt(|n| c_bt)
+  constexpr double kBendingOfNormalisedLoad = 1.25;  // rad of bending for each unit of L sqrt(|n| c_bt)
   const double moment = angular(loads.tip).norm();
   Vector3 n = loads.baseForce(chain_);
   for (const Chain::Part& part : chain_.parts) {
@@ -75,10 +77,10 @@ bool Discretisation::choose(const DeadLoads& loads, Backbone& backbone) {
     const double force = std::max(n_start, n.norm());
     const RestState& rest = backbone.rest[part.segment];
     const double length = rest.stretch * part.length;
-    const double softness = rest.c.bending_torsion.diagonal().maxCoeff();
-    const double bending = length * (rest.curvature.norm() + softness * moment);
-    const double load_number = length * std::sqrt(softness * force);
-    demand_[part.segment] = std::max({bending, kBendingOfLoadNumber * load_number, kLeastDemand});
+    const double bending_compliance = rest.c.bending_torsion.diagonal().maxCoeff();
+    const double bending = length * (rest.curvature.norm() + bending_compliance * moment);
+    const double normalised_load = length * std::sqrt(bending_compliance * force);
+    demand_[part.segment] = std::max({bending, kBendingOfNormalisedLoad * normalised_load, kLeastDemand});
   }
   return chooseForDemand(backbone);
 }
@@ -110,10 +112,10 @@ double Discretisation::truncation(double cancellation, const Backbone& backbone)
   return sum;
 }
 
-bool Discretisation::refine(double amplification, Backbone& backbone, double tolerated) {
+bool Discretisation::refine(double buckling_factor, Backbone& backbone, double tolerated) {
   constexpr double kMargin = 1.05, kMostGrowth = 2.0, kEasierBy = 0.8;
-  constexpr int kPatience = 50;  // solves; an attempt with too few elements costs a second solve
-  const int stages = backbone.passes->stages;
+  constexpr int kHysteresisCount = 50;  // solves; an attempt with too few elements costs a second solve
+  const int stages = backbone.kernel->stages;
   static const double kLongest = std::pow(2.0 * std::tan(1.05), 2);  // |g|^2 of 2.1 rad
   bool wanting = false, easier = true;
   auto element = backbone.elements.begin();
@@ -124,29 +126,29 @@ bool Discretisation::refine(double amplification, Backbone& backbone, double tol
       error += truncationOf(*element, cancellation_);
       longest = std::max(longest, element->g_end(stages).squaredNorm());
     }
-    error *= amplification;
+    error *= buckling_factor;
     const bool too_long = longest > kLongest, fine = error <= std::max(accuracy_, tolerated) && !too_long;
-    easier = easier && !too_long && caution_[segment] > 1.0;
+    easier = easier && !too_long && safety_factor_[segment] > 1.0;
     if (fine && !easier) continue;
     const double capacity = count * std::min(most_, bendingOfAnElement(stages, accuracy_));
     // Bending at which elements with this number of stages would have this error.
     const double seen = std::pow(error / accuracy_, 0.5 / stages) * capacity;
-    seen_caution_[segment] = std::max(1.0, kMargin * seen / demand_[segment]);
-    easier = easier && seen_caution_[segment] <= kEasierBy * caution_[segment];
+    seen_safety_factor_[segment] = std::max(1.0, kMargin * seen / demand_[segment]);
+    easier = easier && seen_safety_factor_[segment] <= kEasierBy * safety_factor_[segment];
     if (fine) {
-      seen_caution_[segment] = std::min(seen_caution_[segment], caution_[segment]);
+      seen_safety_factor_[segment] = std::min(seen_safety_factor_[segment], safety_factor_[segment]);
       continue;
     }
     wanting = true;
     const double growth = too_long ? kMostGrowth : seen / demandOf(segment);
-    caution_[segment] *= std::clamp(kMargin * growth, kMargin, kMostGrowth);  // NaN: unchanged
+    safety_factor_[segment] *= std::clamp(kMargin * growth, kMargin, kMostGrowth);  // NaN: unchanged
     // Ask for more than the present choice was made for.
-    caution_[segment] = std::max(caution_[segment], kMargin * capacity / demand_[segment]);
+    safety_factor_[segment] = std::max(safety_factor_[segment], kMargin * capacity / demand_[segment]);
   }
-  patience_ = wanting || !easier ? kPatience : patience_ - 1;
-  if (patience_ == 0) {
-    caution_ = seen_caution_;
-    patience_ = kPatience;
+  hysteresis_count_ = wanting || !easier ? kHysteresisCount : hysteresis_count_ - 1;
+  if (hysteresis_count_ == 0) {
+    safety_factor_ = seen_safety_factor_;
+    hysteresis_count_ = kHysteresisCount;
   }
   return wanting && chooseForDemand(backbone);
 }

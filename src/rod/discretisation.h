@@ -24,14 +24,14 @@ class Discretisation {
   // by that of the compliance, which is computed as their difference.
   double truncation(double cancellation, const Backbone& backbone);
 
-  // Refines a segment (more stages or elements) if its estimated error times `amplification`, the buckling factor of
+  // Refines a segment (more stages or elements) if its estimated error times `buckling_factor`, the buckling factor of
   // StaticsReport, is above the accuracy and above `tolerated`, or if its elements bend too far for one Cayley vector. False
   // if nothing had to, or could, be refined.
-  bool refine(double amplification, Backbone& backbone, double tolerated = 0.0);
+  bool refine(double buckling_factor, Backbone& backbone, double tolerated = 0.0);
 
   // Undoes the effect of refine() and shorten().
   void reset() {
-    std::fill(caution_.begin(), caution_.end(), 1.0);
+    std::fill(safety_factor_.begin(), safety_factor_.end(), 1.0);
     most_ = kLong;
   }
 
@@ -39,7 +39,7 @@ class Discretisation {
   static constexpr double kLong = 1.8, kShort = 1.5;  // rad an element
 
   bool chooseForDemand(Backbone& backbone);
-  double demandOf(size_t segment) const { return demand_[segment] * caution_[segment]; }
+  double demandOf(size_t segment) const { return demand_[segment] * safety_factor_[segment]; }
 
   const Chain& chain_;
   double accuracy_;
@@ -51,11 +51,11 @@ class Discretisation {
   };
   double bendingOf(const Choice& choice) const { return std::min(most_, choice.bending); }
   std::vector<Choice> choices_;
-  std::vector<double> demand_;   // bending of each segment that decides its number of elements, rad; without caution_
+  std::vector<double> demand_;   // bending of each segment that decides its number of elements, rad; without safety_factor_
   double cancellation_ = 1.0;    // last argument of truncation()
-  std::vector<double> caution_;  // safety factor on each demand, from refine()
-  std::vector<double> seen_caution_;  // safety factors that the last solution would have needed
-  int patience_ = 1;                  // solves until smaller safety factors are tried
+  std::vector<double> safety_factor_;  // safety factor on each demand, from refine()
+  std::vector<double> seen_safety_factor_;  // safety factors that the last solution would have needed
+  int hysteresis_count_ = 1;                  // solves until smaller safety factors are tried
 };
 
 }  // namespace live_stiffness

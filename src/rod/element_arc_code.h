@@ -19,9 +19,9 @@ LIVE_STIFFNESS_INLINE bool bendsAsArc(const ElementState& e) {
 }
 
 struct Arc {
-  LanesMatrix R;
-  Lanes r[3];                     // from the start
-  Lanes compliance[kPackedRow];   // about the section
+  PackMatrix R;
+  Pack r[3];                     // from the start
+  Pack compliance[kPackedRow];   // about the section
 };
 
 LIVE_STIFFNESS_INLINE void setPlane(ElementState& e) {
@@ -38,15 +38,15 @@ LIVE_STIFFNESS_INLINE void setPlane(ElementState& e) {
   rotate(e.R_start, {0.0, 0.0, 1.0}, e.arc_q3);
 }
 
-LIVE_STIFFNESS_INLINE Arc arcTo(const ElementState& e, Lanes s) {
+LIVE_STIFFNESS_INLINE Arc arcTo(const ElementState& e, Pack s) {
   const double ax = e.arc_axis[0], ay = e.arc_axis[1];
   const double(&q1)[3] = e.arc_q1, (&q2)[3] = e.arc_q2, (&q3)[3] = e.arc_q3;
-  const Lanes s2 = s * s, s3 = s2 * s, angle = e.arc_curvature * s, x = e.arc_square * s2;
-  const Lanes c = series(kCosine, x), t = series(kThird, x), t2 = 0.25 * (t + c - x * t * c);  // t of twice the angle
-  const Lanes sine = 1.0 - x * t, d3 = 1.0 - x * c, d1 = angle * sine, r3 = s * sine, r1 = s * angle * c;
+  const Pack s2 = s * s, s3 = s2 * s, angle = e.arc_curvature * s, x = e.arc_square * s2;
+  const Pack c = series(kCosine, x), t = series(kThird, x), t2 = 0.25 * (t + c - x * t * c);  // t of twice the angle
+  const Pack sine = 1.0 - x * t, d3 = 1.0 - x * c, d1 = angle * sine, r3 = s * sine, r1 = s * angle * c;
 
   Arc arc;
-  Lanes across[3], along[3];  // q1 and q3 turned by the angle about q2
+  Pack across[3], along[3];  // q1 and q3 turned by the angle about q2
   for (int i = 0; i < 3; ++i) {
     across[i] = d3 * q1[i] - d1 * q3[i];
     along[i] = d1 * q1[i] + d3 * q3[i];
@@ -57,25 +57,25 @@ LIVE_STIFFNESS_INLINE Arc arcTo(const ElementState& e, Lanes s) {
            {along[0], along[1], along[2]}};
 
   // Integrals of d d^T, r, r r^T, and of r x d = q2 s theta c times d and itself.
-  const Lanes d1d1 = 2.0 * s * x * t2, d3d3 = s - d1d1, d1d3 = 0.5 * s * angle * sine * sine;
-  const Lanes int_r1 = s2 * angle * t, int_r3 = s2 * c;
-  const Lanes r3r3 = 2.0 * s3 * t2, r1r1 = 2.0 * s3 * (t - t2), r1r3 = 0.5 * s3 * angle * c * c;
-  const Lanes xd1 = 0.5 * s2 * x * c * c, xd3 = s2 * angle * (2.0 * t2 - t), xx = r1r1;
+  const Pack d1d1 = 2.0 * s * x * t2, d3d3 = s - d1d1, d1d3 = 0.5 * s * angle * sine * sine;
+  const Pack int_r1 = s2 * angle * t, int_r3 = s2 * c;
+  const Pack r3r3 = 2.0 * s3 * t2, r1r1 = 2.0 * s3 * (t - t2), r1r3 = 0.5 * s3 * angle * c * c;
+  const Pack xd1 = 0.5 * s2 * x * c * c, xd3 = s2 * angle * (2.0 * t2 - t), xx = r1r1;
 
   const double cb = e.bend_xx, db = e.torsion - e.bend_xx, cs = e.shear, ds = e.elongation - e.shear;
-  const Lanes P11 = cs * s + ds * d1d1 + cb * r3r3, P22 = cs * s + cb * (r1r1 + r3r3) + db * xx,
+  const Pack P11 = cs * s + ds * d1d1 + cb * r3r3, P22 = cs * s + cb * (r1r1 + r3r3) + db * xx,
               P33 = cs * s + ds * d3d3 + cb * r1r1, P13 = cb * r1r3 - ds * d1d3;
-  const Lanes K12 = cb * int_r3, K21 = -(cb * int_r3 + db * xd1), K23 = db * xd3 - cb * int_r1, K32 = cb * int_r1;
-  const Lanes bend = cb * s, D11 = db * d1d1, D33 = db * d3d3, D13 = -db * d1d3;  // W = bend I + D
+  const Pack K12 = cb * int_r3, K21 = -(cb * int_r3 + db * xd1), K23 = db * xd3 - cb * int_r1, K32 = cb * int_r1;
+  const Pack bend = cb * s, D11 = db * d1d1, D33 = db * d3d3, D13 = -db * d1d3;  // W = bend I + D
 
   // Seen from its end it is the same arc, with that end's basis q1', -q2, -q3' instead of q1, q2, q3: hence the signs.
-  Lanes P1[3], P3[3], D1[3], D3[3], K1[3], K3[3];
+  Pack P1[3], P3[3], D1[3], D3[3], K1[3], K3[3];
   for (int i = 0; i < 3; ++i) {
     P1[i] = P11 * across[i] + P13 * along[i], P3[i] = P13 * across[i] + P33 * along[i];
     D1[i] = D11 * across[i] + D13 * along[i], D3[i] = D13 * across[i] + D33 * along[i];
     K1[i] = K12 * across[i] + K32 * along[i], K3[i] = K21 * across[i] + K23 * along[i];
   }
-  arc.compliance[21] = arc.compliance[22] = arc.compliance[23] = Lanes{};
+  arc.compliance[21] = arc.compliance[22] = arc.compliance[23] = Pack{};
   int k = 0;
   for (int i = 0; i < 3; ++i)
     for (int j = i; j < 3; ++j, ++k) {
@@ -92,7 +92,7 @@ LIVE_STIFFNESS_INLINE Arc arcTo(const ElementState& e, Lanes s) {
 inline void placeArc(ElementState& e) {
   setPlane(e);
   const Arc arc = arcTo(e, splat(e.length));
-  const Lanes R[9] = {arc.R.x.x, arc.R.y.x, arc.R.z.x, arc.R.x.y, arc.R.y.y,
+  const Pack R[9] = {arc.R.x.x, arc.R.y.x, arc.R.z.x, arc.R.x.y, arc.R.y.y,
                       arc.R.z.y, arc.R.x.z, arc.R.y.z, arc.R.z.z};
   storeFirst(R, e.R_end);
   for (int i = 0; i < 3; ++i) {
@@ -106,8 +106,8 @@ inline void placeArc(ElementState& e) {
 
 inline void arcStations(const ElementState& e, const StationBatch& s, const StationResults& out, int v) {
   Arc arc = arcTo(e, e.length * load(s.fraction, v));
-  if (!isNothing(e.start_compliance)) {
-    Lanes before[kPackedSize];
+  if (!isZero(e.start_compliance)) {
+    Pack before[kPackedSize];
     for (int i = 0; i < kPackedSize; ++i) before[i] = splat(e.start_compliance[i]);
     shift(arc.r, before);
     for (int i = 0; i < kPackedSize; ++i) arc.compliance[i] += before[i];

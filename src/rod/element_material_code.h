@@ -11,7 +11,7 @@ namespace {
 
 template <int kDense>
 struct Material {
-  static constexpr int kVectors = kDense / kLanes;
+  static constexpr int kVectors = kDense / kPackSize;
 
   static LIVE_STIFFNESS_INLINE const GaussLegendre& table() {
     static const GaussLegendre& table = gaussLegendre(kDense);
@@ -21,7 +21,7 @@ struct Material {
     struct Transfers {
       NodeTransfer from[kMaxStages + 1];
       Transfers() {
-        for (int stages = kMinStages; stages <= kMaxStages; ++stages) from[stages] = makeTransfer(stages, kDense);
+        for (int stages : kStageCounts) from[stages] = makeTransfer(stages, kDense);
       }
     };
     static const Transfers transfers;
@@ -37,25 +37,25 @@ struct Material {
     Vectors sum{};
 #pragma GCC unroll 12
     for (int j = 0; j < kDense; ++j) {
-      const Lanes x = splat(f[0][j]), y = splat(f[1][j]), z = splat(f[2][j]);
+      const Pack x = splat(f[0][j]), y = splat(f[1][j]), z = splat(f[2][j]);
       for (int v = 0; v < kVectors; ++v) {
-        const Lanes a = load(table().a[j], v);
+        const Pack a = load(table().a[j], v);
         sum.at[v].x += a * x, sum.at[v].y += a * y, sum.at[v].z += a * z;
       }
     }
     return sum;
   }
 
-  // One more pass on the dense nodes: makes collocation about twenty times more accurate between its own.
+  // One more iteration on the dense nodes: makes collocation about twenty times more accurate between its own.
   static LIVE_STIFFNESS_INLINE void improve(const ElementState& e, Vectors& g, Vectors& g_rate) {
     const GaussLegendre& t = table();
-    const Lanes h = splat(e.length);
+    const Pack h = splat(e.length);
     double n_start[3], m_start[3], line_load[3];
     rotateBack(e.R_start, e.n_start, n_start);
     rotateBack(e.R_start, e.m_start, m_start);
     rotateBack(e.R_start, e.line_load, line_load);
     NodeRow rate[3];
-    LanesMatrix R[kVectors];
+    PackMatrix R[kVectors];
     for (int v = 0; v < kVectors; ++v) {
       R[v] = cayley(g.at[v]);
       const Lanes3 n = splat(n_start) - (h * load(t.c, v)) * splat(line_load);
@@ -96,12 +96,12 @@ struct Material {
   // With r from the start to the node: [S - K hat(r), K; K^T, B], K = hat(r) B, the integrand of (10).
   static void material(ElementState& e, int stages, bool unloaded, bool improved) {
     const GaussLegendre& t = table();
-    const Lanes h = splat(e.length);
+    const Pack h = splat(e.length);
     Vectors g{}, g_rate{};
     rotations(e, stages, unloaded, improved, g, g_rate);
-    const LanesMatrix R_start = splatMatrix(e.R_start);
+    const PackMatrix R_start = splatMatrix(e.R_start);
     const Lanes3 n_start = splat(e.n_start), reach = h * splat(e.line_load);
-    LanesMatrix R[kVectors];
+    PackMatrix R[kVectors];
     NodeRow tangent_row[3];
     Lanes3 tangent[kVectors], missing{};
     for (int v = 0; v < kVectors; ++v) {
@@ -121,14 +121,14 @@ struct Material {
     const Vectors offset = integral(tangent_row);
     for (int v = 0; v < kVectors; ++v) {
       const Lanes3 r = h * offset.at[v], q = g_rate.at[v];
-      const LanesMatrix B = bendOf(e, R[v]), S = stretchOf(e, R[v].z);
-      const LanesMatrix K{cross(r, B.x), cross(r, B.y), cross(r, B.z)}, Kr = timesHat(K, r);
-      const Lanes row[kDenseRow] = {S.x.x - Kr.x.x, S.y.x - Kr.y.x, S.z.x - Kr.z.x, S.y.y - Kr.y.y, S.z.y - Kr.z.y,
+      const PackMatrix B = bendOf(e, R[v]), S = stretchOf(e, R[v].z);
+      const PackMatrix K{cross(r, B.x), cross(r, B.y), cross(r, B.z)}, Kr = timesHat(K, r);
+      const Pack row[kDenseRow] = {S.x.x - Kr.x.x, S.y.x - Kr.y.x, S.z.x - Kr.z.x, S.y.y - Kr.y.y, S.z.y - Kr.z.y,
                                     S.z.z - Kr.z.z, K.x.x, K.y.x, K.z.x, K.x.y, K.y.y, K.z.y, K.x.z, K.y.z, K.z.z,
                                     B.x.x, B.y.x, B.z.x, B.y.y, B.z.y, B.z.z, tangent[v].x, tangent[v].y, tangent[v].z,
-                                    q.x, q.y, q.z, Lanes{}};
-      double* nodes[kLanes];
-      for (int lane = 0; lane < kLanes; ++lane) nodes[lane] = e.dense[kLanes * v + lane];
+                                    q.x, q.y, q.z, Pack{}};
+      double* nodes[kPackSize];
+      for (int lane = 0; lane < kPackSize; ++lane) nodes[lane] = e.dense[kPackSize * v + lane];
       storeAcross(row, nodes);
     }
     double weight[kDense];
@@ -139,13 +139,13 @@ struct Material {
   // Sum of the first n numbers of the rows, weighted; weights are `apart` from one another.
   template <int n>
   static LIVE_STIFFNESS_INLINE void weighted(const ElementState& e, const double* weight, int apart, double* total) {
-    constexpr int kRowVectors = n / kLanes;
-    Lanes sum[kRowVectors];
+    constexpr int kRowVectors = n / kPackSize;
+    Pack sum[kRowVectors];
 #pragma GCC unroll 14
     for (int i = 0; i < kRowVectors; ++i) sum[i] = splat(weight[0]) * load(e.dense[0], i);
 #pragma GCC unroll 12
     for (int j = 1; j < kDense; ++j) {
-      const Lanes w = splat(weight[apart * j]);
+      const Pack w = splat(weight[apart * j]);
 #pragma GCC unroll 14
       for (int i = 0; i < kRowVectors; ++i) sum[i] += w * load(e.dense[j], i);
     }
@@ -154,17 +154,17 @@ struct Material {
 
   // Weighted sums of rows, one a lane; then all about the sections.
   static void stations(const ElementState& e, const StationBatch& s, const StationResults& out, int v) {
-    double weight[kDense][kLanes] __attribute__((aligned(32))), sums[kLanes][kDenseRow] __attribute__((aligned(32)));
+    double weight[kDense][kPackSize] __attribute__((aligned(32))), sums[kPackSize][kDenseRow] __attribute__((aligned(32)));
     for (int j = 0; j < kDense; ++j) store(weight[j], 0, e.length * load(s.weight[j], v));
 #pragma GCC unroll 4
-    for (int lane = 0; lane < kLanes; ++lane) weighted<kDenseRow>(e, &weight[0][lane], kLanes, sums[lane]);
-    Lanes row[kDenseRow];
+    for (int lane = 0; lane < kPackSize; ++lane) weighted<kDenseRow>(e, &weight[0][lane], kPackSize, sums[lane]);
+    Pack row[kDenseRow];
     loadAcross(sums, row);
     Lanes3 g{row[kDenseRate], row[kDenseRate + 1], row[kDenseRate + 2]};
     if (e.unloaded) g = cayleyOfRotation((e.length * load(s.fraction, v)) * splat(e.rest_curvature));
-    const LanesMatrix R = splatMatrix(e.R_start) * cayley(g);
-    const Lanes r[3] = {row[kDenseTangent], row[kDenseTangent + 1], row[kDenseTangent + 2]};
-    if (!isNothing(e.start_compliance))
+    const PackMatrix R = splatMatrix(e.R_start) * cayley(g);
+    const Pack r[3] = {row[kDenseTangent], row[kDenseTangent + 1], row[kDenseTangent + 2]};
+    if (!isZero(e.start_compliance))
       for (int i = 0; i < kPackedSize; ++i) row[i] += e.start_compliance[i];
     shift(r, row);
     storeSections(e, out, v, R, r, row);

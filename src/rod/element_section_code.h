@@ -5,13 +5,13 @@
 //   v = e3 + c_se R^T n,   u = u_rest + c_bt R^T m                                             (7), (9), (37)
 // with n, m the external loads only.
 
-#include "rod/element_passes.h"
-#include "rod/lanes.h"
+#include "rod/element_kernel.h"
+#include "rod/packs.h"
 
 namespace live_stiffness {
 namespace {
 
-LIVE_STIFFNESS_INLINE Lanes3 curvatureOf(const ElementState& e, const LanesMatrix& R, Lanes3 m) {
+LIVE_STIFFNESS_INLINE Lanes3 curvatureOf(const ElementState& e, const PackMatrix& R, Lanes3 m) {
   const Lanes3 b = transposedTimes(R, m);
   return {e.rest_curvature[0] + e.bend_xx * b.x + e.bend_xy * b.y,
           e.rest_curvature[1] + e.bend_xy * b.x + e.bend_yy * b.y, e.rest_curvature[2] + e.torsion * b.z};
@@ -21,17 +21,17 @@ LIVE_STIFFNESS_INLINE Lanes3 tangentOf(const ElementState& e, Lanes3 z, Lanes3 n
   return (1.0 + (e.elongation - e.shear) * dot(z, n)) * z + splat(e.shear) * n;
 }
 // R c R^T of both densities, using that R^T R = I: bend = yy I + (xx - yy) x x^T + ... + (torsion - yy) z z^T.
-LIVE_STIFFNESS_INLINE LanesMatrix bendOf(const ElementState& e, const LanesMatrix& R) {
+LIVE_STIFFNESS_INLINE PackMatrix bendOf(const ElementState& e, const PackMatrix& R) {
   const Lanes3 a = splat(e.bend_xx - e.bend_yy) * R.x + splat(e.bend_xy) * R.y, b = splat(e.bend_xy) * R.x,
                c = splat(e.torsion - e.bend_yy) * R.z;
-  LanesMatrix B{R.x.x * a + R.y.x * b + R.z.x * c, R.x.y * a + R.y.y * b + R.z.y * c,
+  PackMatrix B{R.x.x * a + R.y.x * b + R.z.x * c, R.x.y * a + R.y.y * b + R.z.y * c,
                 R.x.z * a + R.y.z * b + R.z.z * c};
   B.x.x += e.bend_yy, B.y.y += e.bend_yy, B.z.z += e.bend_yy;
   return B;
 }
-LIVE_STIFFNESS_INLINE LanesMatrix stretchOf(const ElementState& e, Lanes3 z) {
+LIVE_STIFFNESS_INLINE PackMatrix stretchOf(const ElementState& e, Lanes3 z) {
   const Lanes3 c = splat(e.elongation - e.shear) * z;
-  LanesMatrix S{z.x * c, z.y * c, z.z * c};
+  PackMatrix S{z.x * c, z.y * c, z.z * c};
   S.x.x += e.shear, S.y.y += e.shear, S.z.z += e.shear;
   return S;
 }
@@ -50,9 +50,9 @@ constexpr double kThird[kTerms] = {
     2.505210838544172e-08, -1.6059043836821613e-10, 7.647163731819816e-13, -2.8114572543455206e-15,
     8.22063524662433e-18, -1.9572941063391263e-20};
 // Even and odd powers separately: half the latency of Horner's rule.
-LIVE_STIFFNESS_INLINE Lanes series(const double (&k)[kTerms], Lanes x) {
-  const Lanes x2 = x * x;
-  Lanes even = splat(k[kTerms - 2]), odd = splat(k[kTerms - 1]);
+LIVE_STIFFNESS_INLINE Pack series(const double (&k)[kTerms], Pack x) {
+  const Pack x2 = x * x;
+  Pack even = splat(k[kTerms - 2]), odd = splat(k[kTerms - 1]);
 #pragma GCC unroll 10
   for (int i = kTerms - 4; i >= 0; i -= 2) {
     even = even * x2 + k[i];
@@ -63,7 +63,7 @@ LIVE_STIFFNESS_INLINE Lanes series(const double (&k)[kTerms], Lanes x) {
 
 // 2 tan(|w| / 2) along w: the Cayley vector of the rotation vector w, |w| up to kMaxUnloadedBending.
 LIVE_STIFFNESS_INLINE Lanes3 cayleyOfRotation(Lanes3 w) {
-  const Lanes x = dot(w, w);
+  const Pack x = dot(w, w);
   return (2.0 * series(kSine, x) / (2.0 - x * series(kCosine, x))) * w;
 }
 template <int n>

@@ -17,7 +17,7 @@ struct Shape : Collocation<kStages> {
 
   // What follows from the orientations of the sections, in the axes of the element's start.
   struct Section {
-    LanesMatrix R;
+    PackMatrix R;
     Lanes3 n, tangent;
   };
   struct Sections {
@@ -25,7 +25,7 @@ struct Shape : Collocation<kStages> {
     Rows moment;
   };
   static LIVE_STIFFNESS_INLINE Sections sections(const GaussLegendre& t, const ElementState& e) {
-    const Lanes h = splat(e.length);
+    const Pack h = splat(e.length);
     double n_start[3], m_start[3], line_load[3];
     rotateBack(e.R_start, e.n_start, n_start);
     rotateBack(e.R_start, e.m_start, m_start);
@@ -52,14 +52,14 @@ struct Shape : Collocation<kStages> {
     return all;
   }
 
-  static void pass(ElementState& e) {
+  static void iterate(ElementState& e) {
     const GaussLegendre& t = table();
-    const Lanes h = splat(e.length);
+    const Pack h = splat(e.length);
     const Sections all = sections(t, e);
     for (int v = 0; v < kVectors; ++v)
       store(e.g_rate, v, cayleyRate(load(e.g, v), curvatureOf(e, all.at[v].R, all.moment.at[v])));
     const Rows next = integral(t, e.g_rate);
-    Lanes change{}, size{};
+    Pack change{}, size{};
     for (int v = 0; v < kVectors; ++v) {
       const Lanes3 before = load(e.g, v), after = h * next.at[v], step = after - before;
       change += dot(step, step);
@@ -74,9 +74,9 @@ struct Shape : Collocation<kStages> {
   // The shape at the nodes and the end, evaluated from g.
   static void evaluate(ElementState& e) {
     const GaussLegendre& t = table();
-    const Lanes h = splat(e.length);
+    const Pack h = splat(e.length);
     const Sections all = sections(t, e);
-    const LanesMatrix R_start = splatMatrix(e.R_start);
+    const PackMatrix R_start = splatMatrix(e.R_start);
     for (int v = 0; v < kVectors; ++v) {
       storeMatrix(e.R, v, R_start * all.at[v].R);
       store(e.tangent, v, R_start * all.at[v].tangent);
@@ -93,9 +93,9 @@ struct Shape : Collocation<kStages> {
 
   // n, m: of the vector that holds the end.
   static LIVE_STIFFNESS_INLINE void endLoads(ElementState& e, const Lanes3& n, const Lanes3& m) {
-    constexpr int kLane = kStages - kLanes * (kVectors - 1);
-    rotate(e.R_start, {n.x[kLane], n.y[kLane], n.z[kLane]}, e.n_end);
-    rotate(e.R_start, {m.x[kLane], m.y[kLane], m.z[kLane]}, e.m_end);
+    constexpr int kPackIndex = kStages - kPackSize * (kVectors - 1);
+    rotate(e.R_start, {n.x[kPackIndex], n.y[kPackIndex], n.z[kPackIndex]}, e.n_end);
+    rotate(e.R_start, {m.x[kPackIndex], m.y[kPackIndex], m.z[kPackIndex]}, e.m_end);
   }
 
   static LIVE_STIFFNESS_INLINE void endRotation(ElementState& e) {
@@ -142,50 +142,50 @@ struct Shape : Collocation<kStages> {
                          e.rest_curvature[2] + e.torsion * m[2]};
     const double quarter = 0.25 * e.length * e.length * squaredNorm(u), third = (quarter < 1.0 ? quarter : 1.0) / 3.0;
     for (int v = 0; v < kVectors; ++v) {
-      const Lanes c = load(t.c, v);
+      const Pack c = load(t.c, v);
       store(e.g, v, (e.length * c * (1.0 + third * c * c)) * splat(u));  // 2 tan(x / 2) from x
     }
   }
 
-  // Extrapolates by `steadiness` times the last change; for 0 only stores the present values for the next time.
+  // Extrapolates by `extrapolation` times the last change; for 0 only stores the present values for the next time.
   template <int n>
-  static LIVE_STIFFNESS_INLINE void extrapolate(double steadiness, StageRow (&now)[n], StageRow (&before)[n]) {
+  static LIVE_STIFFNESS_INLINE void extrapolate(double extrapolation, StageRow (&now)[n], StageRow (&before)[n]) {
     for (int k = 0; k < n; ++k)
       for (int v = 0; v < kVectors; ++v) {
-        const Lanes x = load(now[k], v);
-        if (steadiness != 0.0) store(now[k], v, x + steadiness * (x - load(before[k], v)));
+        const Pack x = load(now[k], v);
+        if (extrapolation != 0.0) store(now[k], v, x + extrapolation * (x - load(before[k], v)));
         store(before[k], v, x);
       }
   }
 
-  static void predict(ElementState& e, const double (&turn)[3], double steadiness, bool with_columns) {
-    extrapolate(steadiness, e.g, e.g_before);
+  static void predict(ElementState& e, const double (&turn)[3], double extrapolation, bool with_sensitivities) {
+    extrapolate(extrapolation, e.g, e.g_before);
     for (int i = 0; i < 3; ++i) {
-      const double more = steadiness != 0.0 ? turn[i] - steadiness * e.turn[i] : turn[i];
+      const double more = extrapolation != 0.0 ? turn[i] - extrapolation * e.turn[i] : turn[i];
       for (int v = 0; v < kVectors; ++v) store(e.g[i], v, load(e.g[i], v) + more * load(table().c, v));
       e.turn[i] = turn[i];
     }
-    if (!with_columns) return;
+    if (!with_sensitivities) return;
     for (int k = 0; k < 6; ++k) {
-      extrapolate(steadiness, e.phi[k], e.phi_before[k]);
-      extrapolate(steadiness, e.phi_rate[k], e.phi_rate_before[k]);
+      extrapolate(extrapolation, e.phi[k], e.phi_before[k]);
+      extrapolate(extrapolation, e.phi_rate[k], e.phi_rate_before[k]);
       for (int i = 0; i < 3; ++i) {  // start of phi; propagate() later adds the difference
         const double x = e.phi_start[k][i];
-        if (steadiness != 0.0) e.phi_start[k][i] = x + steadiness * (x - e.phi_start_before[k][i]);
+        if (extrapolation != 0.0) e.phi_start[k][i] = x + extrapolation * (x - e.phi_start_before[k][i]);
         e.phi_start_before[k][i] = x;
       }
     }
   }
 
   static bool integrate(ElementState& e) {
-    constexpr int kMaxPasses = 80;
+    constexpr int kMaxIterations = 80;
     constexpr double kConverged = 2e-15;  // rad, relative to 1 + |g|
     double last_change = __builtin_inf();
     bool converged = false;
-    for (int i = 0; i < kMaxPasses && !converged; ++i) {
-      pass(e);
+    for (int i = 0; i < kMaxIterations && !converged; ++i) {
+      iterate(e);
       const double goal = kConverged * (1.0 + e.size);
-      if (!isSound(e)) break;  // NaN, or near the singularity at half a turn
+      if (!isAdmissible(e)) break;  // NaN, or near the singularity at half a turn
       // Rounding can keep the change just above the bound; then stop when it no longer shrinks.
       converged = e.change <= goal || (e.change <= 20.0 * goal && e.change >= last_change);
       last_change = e.change;
@@ -195,19 +195,19 @@ struct Shape : Collocation<kStages> {
   }
 
   // An element may bend by up to about 2.4 rad between its ends: 4 (kStages + 1) is the square of `size` there.
-  static LIVE_STIFFNESS_INLINE bool isSound(const ElementState& e) { return e.size * e.size <= 4.0 * (kStages + 1); }
+  static LIVE_STIFFNESS_INLINE bool isAdmissible(const ElementState& e) { return e.size * e.size <= 4.0 * (kStages + 1); }
 
   static void placeUnloaded(ElementState& e) {
     const GaussLegendre& t = table();
     const Lanes3 u = splat(e.rest_curvature);
-    const LanesMatrix R_start = splatMatrix(e.R_start);
+    const PackMatrix R_start = splatMatrix(e.R_start);
     for (int v = 0; v < kVectors; ++v) {
-      const Lanes s = splat(e.length) * load(t.c, v);
-      const Lanes3 w = s * u, turn{w.y, -w.x, Lanes{}};  // turn: w x e3
+      const Pack s = splat(e.length) * load(t.c, v);
+      const Lanes3 w = s * u, turn{w.y, -w.x, Pack{}};  // turn: w x e3
       const Lanes3 g = cayleyOfRotation(w);
       store(e.g, v, g);
       store(e.g_rate, v, cayleyRate(g, u));
-      const Lanes x = dot(w, w);
+      const Pack x = dot(w, w);
       const Lanes3 bend = series(kCosine, x) * turn + series(kThird, x) * cross(w, turn);
       store(e.offset, v, s * (R_start * Lanes3{bend.x, bend.y, 1.0 + bend.z}));
     }
@@ -223,7 +223,7 @@ struct Shape : Collocation<kStages> {
     double turn_start[3] = {};
     for (int k = 0; k < 3; ++k)
       for (int i = 0; i < 3; ++i) turn_start[i] += change[k] * e.phi_start[k][i];
-    const LanesMatrix R_start = splatMatrix(e.R_start);
+    const PackMatrix R_start = splatMatrix(e.R_start);
     for (int v = 0; v < kVectors; ++v) {
       Lanes3 turn = Lanes3{} - splat(turn_start);
       for (int k = 0; k < 3; ++k) turn = turn + splat(change[k]) * load(e.phi[k], v);

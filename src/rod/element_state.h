@@ -7,7 +7,7 @@
 
 namespace live_stiffness {
 
-constexpr int kMinStages = 2;
+constexpr int kStageCounts[] = {3, 5, 7};  // Gauss nodes that an element may have
 constexpr int kMaxStages = 7;
 typedef double StageRow[kMaxStages + 1] __attribute__((aligned(64)));
 
@@ -42,7 +42,7 @@ struct ElementState {
   // without that at the end.
   StageRow g[3], g_rate[3];
 
-  // Result of the last pass.
+  // Result of the last iteration.
   double R_end[9], n_end[3], m_end[3];
   double change;      // norm of the change of all g in it
   double size;        // norm of all g, before it
@@ -66,7 +66,7 @@ struct ElementState {
   double turn[3];  // of the rest curvature from there to here, rad
   StageRow g_before[3], phi_before[6][3], phi_rate_before[6][3];
   double phi_start_before[6][3];
-  double column_truncation;  // square of the highest Legendre coefficient of their rate, as it turns the end, relative
+  double sensitivity_truncation;  // square of the highest Legendre coefficient of their rate, as it turns the end, relative
 
   // Plane of an arc: curvature (1/m) and its square, axis in the axes of its start, and in those of B its first direction
   // across, its axis and its first tangent. Set by placeArc().
@@ -87,18 +87,18 @@ struct ElementState {
 };
 
 // Which columns are found.
-enum class ColumnSet {
+enum class SensitivitySet {
   kBaseMoment,  // the first three; the others are nothing
   kAll,
 };
 
 // Derivatives of a section's state with respect to [base moment, tip force]: rotation phi (rad, R changes by
 // hat(phi) R), position and moment. The first index is the column.
-struct ElementColumns {
+struct ElementSensitivities {
   double phi[6][3], p[6][3], m[6][3];
   // What the columns' own error does, so far along the chain: [i][j] is the work of the moment of column i on the
   // turning that column j still misses. It corrects the compliance to second order in that error, see StaticsSolver.
-  double defect[6][6];
+  double adjoint_residual[6][6];
 };
 
 // Sections inside one element, a batch at a time.

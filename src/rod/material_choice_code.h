@@ -31,8 +31,8 @@ struct MaterialChoice {
     bool improved = false;
     if (!unloaded) {
       const GaussLegendre& t = gaussLegendre(kStages);
-      Lanes square{};
-      for (int v = 0; v < (kStages + kLanes - 1) / kLanes; ++v)
+      Pack square{};
+      for (int v = 0; v < (kStages + kPackSize - 1) / kPackSize; ++v)
         square += load(t.b, v) * dot(load(e.g_rate, v), load(e.g_rate, v));
       bending = e.length * e.length * sum(square);
       improved = e.interior_error > accuracy;
@@ -45,7 +45,7 @@ struct MaterialChoice {
   }
 
   static void stations(const ElementState& e, const StationBatch& s, const StationResults& out) {
-    for (int v = 0; kLanes * v < s.size; ++v) {
+    for (int v = 0; kPackSize * v < s.size; ++v) {
       if (e.is_arc) arcStations(e, s, out, v);
       else if (e.dense_nodes == 4) Material<4>::stations(e, s, out, v);
       else if (e.dense_nodes == 8) Material<8>::stations(e, s, out, v);

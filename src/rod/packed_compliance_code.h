@@ -1,7 +1,7 @@
 #pragma once
 // Symmetric 6x6 compliances in 21 numbers (see kPackedSize), of one section or of one section in each lane.
 
-#include "rod/lanes.h"
+#include "rod/packs.h"
 
 namespace live_stiffness {
 namespace {
@@ -40,23 +40,23 @@ LIVE_STIFFNESS_INLINE void shift(const T (&d)[3], T* at) {
 __attribute__((noinline)) void shiftOne(const double (&d)[3], PackedRow& at) { shift(d, at); }
 
 // True at the base only: beyond it the robot can bend in every direction, so that its angular block is positive.
-LIVE_STIFFNESS_INLINE bool isNothing(const PackedRow& compliance) { return compliance[15] == 0.0; }
+LIVE_STIFFNESS_INLINE bool isZero(const PackedRow& compliance) { return compliance[15] == 0.0; }
 
 // Stores a batch of sections of an element, one in each lane. r: from the element's start, m; at: compliance of everything
 // before the section, about it.
-LIVE_STIFFNESS_INLINE void storeSections(const ElementState& e, const StationResults& out, int v, const LanesMatrix& R,
-                                         const Lanes (&r)[3], const Lanes* at) {
-  const Lanes pose[12] = {R.x.x, R.x.y, R.x.z, R.y.x, R.y.y, R.y.z, R.z.x, R.z.y, R.z.z, e.p_start[0] + r[0],
+LIVE_STIFFNESS_INLINE void storeSections(const ElementState& e, const StationResults& out, int v, const PackMatrix& R,
+                                         const Pack (&r)[3], const Pack* at) {
+  const Pack pose[12] = {R.x.x, R.x.y, R.x.z, R.y.x, R.y.y, R.y.z, R.z.x, R.z.y, R.z.z, e.p_start[0] + r[0],
                           e.p_start[1] + r[1], e.p_start[2] + r[2]};
-  const Lanes *P = at, *K = at + 6, *W = at + 15;
-  const Lanes compliance[36] = {P[0], P[1], P[2], K[0], K[1], K[2],  //
+  const Pack *P = at, *K = at + 6, *W = at + 15;
+  const Pack compliance[36] = {P[0], P[1], P[2], K[0], K[1], K[2],  //
                                 P[1], P[3], P[4], K[3], K[4], K[5],  //
                                 P[2], P[4], P[5], K[6], K[7], K[8],  //
                                 K[0], K[3], K[6], W[0], W[1], W[2],  //
                                 K[1], K[4], K[7], W[1], W[3], W[4],  //
                                 K[2], K[5], K[8], W[2], W[4], W[5]};
-  storeAcross(pose, out.pose + kLanes * v);
-  storeAcross(compliance, out.compliance + kLanes * v);
+  storeAcross(pose, out.pose + kPackSize * v);
+  storeAcross(compliance, out.compliance + kPackSize * v);
 }
 
 }  // namespace

@@ -54,14 +54,14 @@ double RodElement::bending(int stages) const {
   return 2.0 * std::atan(0.5 * g_end(stages).norm());
 }
 
-bool integrate(const ElementPasses& passes, bool anew, RodElement& element) {
-  if (anew) passes.reset_guess(element.state);
-  return passes.integrate(element.state);
+bool integrate(const ElementKernel& kernel, bool cold, RodElement& element) {
+  if (cold) kernel.reset_guess(element.state);
+  return kernel.integrate(element.state);
 }
 
-double propagate(const ElementPasses& passes, bool anew, RodElement& element, const ElementColumns& start, double goal,
-                 ElementColumns& end) {
-  return passes.propagate(element.state, anew, start, ColumnSet::kAll, goal, false, end);
+double propagate(const ElementKernel& kernel, bool cold, RodElement& element, const ElementSensitivities& start, double goal,
+                 ElementSensitivities& end) {
+  return kernel.propagate(element.state, cold, start, SensitivitySet::kAll, goal, false, end);
 }
 
 }  // namespace live_stiffness

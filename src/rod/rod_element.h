@@ -3,8 +3,8 @@
 // src/rod/element_shape_code.h and element_section_code.h, their derivation in docs/derivation.md.
 
 #include "live_stiffness/lie/se3.h"
-#include "rod/element_passes.h"
-#include "live_stiffness/section/load_stepping.h"
+#include "rod/element_kernel.h"
+#include "section/load_stepping.h"
 
 namespace live_stiffness {
 
@@ -32,17 +32,17 @@ struct RodElement {
 // So that a vector of them is an array of states.
 static_assert(sizeof(RodElement) == sizeof(ElementState), "RodElement holds nothing but its state");
 
-// Integrates the element from its start values by fixed-point passes, from the guess that it holds or anew. Order 2
-// stages. Returns false if the passes do not converge: the element is too long for its load or curvature.
-bool integrate(const ElementPasses& passes, bool anew, RodElement& element);
+// Integrates the element from its start values by fixed-point iterations, from the guess that it holds or cold. Order 2
+// stages. Returns false if the iterations do not converge: the element is too long for its load or curvature.
+bool integrate(const ElementKernel& kernel, bool cold, RodElement& element);
 
-// Carries columns from the start to the end of an integrated element, by passes until they change by less than `goal`,
-// relative, from the guess that it holds or anew:
+// Carries columns from the start to the end of an integrated element, by iterations until they change by less than `goal`,
+// relative, from the guess that it holds or cold:
 //   phi' = R c_bt R^T (dm - phi x m),  dp' = phi x p' + R c_se R^T (dn - phi x n),  dm' = -dp' x n - p' x dn,
 // dn the unit force of columns 3 to 5. Dead loads only. Returns what is estimated to be left, relative; infinity
 // without convergence.
-double propagate(const ElementPasses& passes, bool anew, RodElement& element, const ElementColumns& start, double goal,
-                 ElementColumns& end);
+double propagate(const ElementKernel& kernel, bool cold, RodElement& element, const ElementSensitivities& start, double goal,
+                 ElementSensitivities& end);
 
 // The 21 numbers of element_state.h as a 6x6 matrix; same point, axes and units.
 inline void unpack(const PackedRow& compliance, Matrix6& C) {
@@ -56,8 +56,8 @@ inline void unpack(const PackedRow& compliance, Matrix6& C) {
 }
 
 // One part (phi, p or m) of columns as a 3x6 matrix.
-inline Eigen::Map<Matrix3X6> columnsOf(double (&part)[6][3]) { return Eigen::Map<Matrix3X6>(&part[0][0]); }
-inline Eigen::Map<const Matrix3X6> columnsOf(const double (&part)[6][3]) {
+inline Eigen::Map<Matrix3X6> sensitivityMatrix(double (&part)[6][3]) { return Eigen::Map<Matrix3X6>(&part[0][0]); }
+inline Eigen::Map<const Matrix3X6> sensitivityMatrix(const double (&part)[6][3]) {
   return Eigen::Map<const Matrix3X6>(&part[0][0]);
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <set>
 
+#include "section/section_moments.h"
 #include "section/section_reader.h"
 
 namespace live_stiffness {

@@ -28,7 +28,7 @@ Vector3 turnOf(const ElementState& e, double length, const RestState& rest) {
 }
 
 // The multiple of the last change that is nearest to this one; 0 if it is not near.
-double steadinessOf(const Chain& chain, const Backbone& backbone) {
+double extrapolationOf(const Chain& chain, const Backbone& backbone) {
   constexpr double kNear = 0.1, kMost = 2.0;
   double along = 0.0, last = 0.0, now = 0.0;
   auto element = backbone.elements.begin();
@@ -44,16 +44,16 @@ double steadinessOf(const Chain& chain, const Backbone& backbone) {
       now += turn.squaredNorm();
     }
   }
-  const double steadiness = along / last;
-  const bool is_steady =  // false if NaN
-      now - steadiness * along <= kNear * kNear * now && std::abs(steadiness) <= kMost;
-  return is_steady ? steadiness : 0.0;
+  const double extrapolation = along / last;
+  const bool can_extrapolate =  // false if NaN
+      now - extrapolation * along <= kNear * kNear * now && std::abs(extrapolation) <= kMost;
+  return can_extrapolate ? extrapolation : 0.0;
 }
 
 }  // namespace
 
 double prepare(const Chain& chain, const DeadLoads& loads, Backbone& backbone, History keep, bool extrapolate) {
-  const double steadiness = extrapolate ? steadinessOf(chain, backbone) : 0.0;
+  const double extrapolation = extrapolate ? extrapolationOf(chain, backbone) : 0.0;
   auto element = backbone.elements.begin();
   for (const Chain::Part& part : chain.parts) {
     if (part.segment < 0) continue;
@@ -65,7 +65,7 @@ double prepare(const Chain& chain, const DeadLoads& loads, Backbone& backbone, H
       ElementState& e = element->state;
       if (keep != History::kNone) {
         const Vector3 turn = turnOf(e, own_length, rest);
-        backbone.passes->predict(e, {turn.x(), turn.y(), turn.z()}, steadiness, keep == History::kColumns);
+        backbone.kernel->predict(e, {turn.x(), turn.y(), turn.z()}, extrapolation, keep == History::kSensitivities);
       }
       e.length = own_length;
       e.start = k * own_length;
@@ -73,14 +73,19 @@ double prepare(const Chain& chain, const DeadLoads& loads, Backbone& backbone, H
       element->setLoads(density * loads.gravity);
     }
   }
-  return steadiness;
+  return extrapolation;
 }
 
-Sweep sweep(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, Pass pass, Backbone& backbone) {
+Sweep sweep(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, SweepMode mode, Backbone& backbone) {
   SweepResult result;
-  backbone.passes->sweep(stateOf(chain, loads, base_moment, backbone), pass, result);
-  if (pass != Pass::kOnce) backbone.setTip(result.R_tip, result.p_tip);
-  return {Vector3(result.residual), result.change, result.sound};
+  backbone.kernel->sweep(stateOf(chain, loads, base_moment, backbone), mode, result);
+  if (mode != SweepMode::kOnce) backbone.setTip(result.R_tip, result.p_tip);
+  return {Vector3(result.residual), result.change, result.is_admissible};
+}
+
+void placeUnloaded(const Chain& chain, Backbone& backbone) {
+  prepare(chain, DeadLoads(), backbone);
+  sweep(chain, DeadLoads(), Vector3::Zero(), SweepMode::kUnloaded, backbone);
 }
 
 bool shoot(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, bool nodes_hold_guess,
@@ -89,10 +94,10 @@ bool shoot(const Chain& chain, const DeadLoads& loads, const Vector3& base_momen
   constexpr double kConverged = 2e-16, kWobble = 1e-13;  // rad
   double last_change = kInfinity;
   for (int i = 0; i < kMaxSweeps; ++i) {
-    const bool anew = i == 0 && !nodes_hold_guess;
-    const Sweep s = sweep(chain, loads, base_moment, anew ? Pass::kAnew : Pass::kFinish, backbone);
+    const bool cold = i == 0 && !nodes_hold_guess;
+    const Sweep s = sweep(chain, loads, base_moment, cold ? SweepMode::kCold : SweepMode::kFinish, backbone);
     residual = s.residual;
-    if (!s.sound) return false;
+    if (!s.is_admissible) return false;
     // Rounding can keep the change just above the bound; then stop when it no longer shrinks.
     if (s.change <= kConverged || (s.change <= kWobble && s.change >= last_change)) return true;
     last_change = s.change;
@@ -100,9 +105,9 @@ bool shoot(const Chain& chain, const DeadLoads& loads, const Vector3& base_momen
   return false;
 }
 
-double tipColumns(const Chain& chain, const DeadLoads& loads, bool anew, double goal, Backbone& backbone,
-                  ElementColumns& columns, bool with_defect, ColumnSet set) {
-  return backbone.passes->columns(stateOf(chain, loads, Vector3::Zero(), backbone), anew, set, goal, with_defect, columns);
+double tipSensitivities(const Chain& chain, const DeadLoads& loads, bool cold, double goal, Backbone& backbone,
+                  ElementSensitivities& columns, bool with_adjoint, SensitivitySet set) {
+  return backbone.kernel->columns(stateOf(chain, loads, Vector3::Zero(), backbone), cold, set, goal, with_adjoint, columns);
 }
 
 }  // namespace live_stiffness

@@ -9,7 +9,7 @@ namespace live_stiffness {
 struct Sweep {
   Vector3 residual;     // moment at T that no load balances, N m, base axes
   double change = 0.0;  // largest change of an element
-  bool sound = false;   // finite, and no element bent too far
+  bool is_admissible = false;   // finite, and no element bent too far
 };
 
 // Chain, loads and elements as plain data; the backbone's elements are what it refers to.
@@ -19,7 +19,7 @@ ChainState stateOf(const Chain& chain, const DeadLoads& loads, const Vector3& ba
 enum class History {
   kNone,  // the nodes may still hold a guess for the same rest curvatures
   kShape,
-  kColumns,  // both
+  kSensitivities,  // both
 };
 
 // Sets lengths, sections and loads of the elements (element_count of them); once before the iterations. With a history the
@@ -30,19 +30,23 @@ double prepare(const Chain& chain, const DeadLoads& loads, Backbone& backbone, H
                bool extrapolate = false);
 
 // One iteration over all elements, from base to tip, with the given base moment.
-Sweep sweep(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, Pass pass, Backbone& backbone);
+Sweep sweep(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, SweepMode mode, Backbone& backbone);
 
-// Iterates until the shape has converged to rounding. False if it does not converge or is not sound; then the nodes hold
+// Closed-form shape of a chain on which nothing external acts: constant strain per segment (6), exact. Fills elements,
+// guess and X_BT from backbone.rest and the number of elements and stages that the backbone has.
+void placeUnloaded(const Chain& chain, Backbone& backbone);
+
+// Iterates until the shape has converged to rounding. False if it does not converge or is not admissible; then the nodes hold
 // no guess.
 bool shoot(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, bool nodes_hold_guess,
            Backbone& backbone, Vector3& residual);
 
 // Sensitivities (columns): derivatives of the state at T with respect to [base moment, tip force]; their m is the derivative
-// of the residual. The last iteration must have left the shape (any Pass but kOnce). The start is the sensitivities that the
-// elements hold, unless `anew`. Returns their largest estimated relative error in any element; infinity if one did not
-// converge to `goal`. with_defect: also computes the adjoint-weighted residual (see ElementColumns), with which the error of
-// the compliance is of order `goal` squared. Columns that are not in `set` are returned as zero.
-double tipColumns(const Chain& chain, const DeadLoads& loads, bool anew, double goal, Backbone& backbone,
-                  ElementColumns& columns, bool with_defect = false, ColumnSet set = ColumnSet::kAll);
+// of the residual. The last iteration must have left the shape (any mode but kOnce). The start is the sensitivities that the
+// elements hold, unless `cold`. Returns their largest estimated relative error in any element; infinity if one did not
+// converge to `goal`. with_adjoint: also computes the adjoint-weighted residual (see ElementSensitivities), with which the
+// error of the compliance is of order `goal` squared. Columns that are not in `set` are returned as zero.
+double tipSensitivities(const Chain& chain, const DeadLoads& loads, bool cold, double goal, Backbone& backbone,
+                        ElementSensitivities& columns, bool with_adjoint = false, SensitivitySet set = SensitivitySet::kAll);
 
 }  // namespace live_stiffness

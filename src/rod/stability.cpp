@@ -36,16 +36,16 @@ constexpr double kRounding = 1e-11;
 
 // At a neutral equilibrium the compliance is infinite but for rounding and the error of discretisation. So it must not be
 // so much larger than that of the most compliant segment that no digit of it is left.
-bool isNeutral(double rotation, double softness, double error) {
+bool isNeutral(double rotation, double bending_compliance, double error) {
   const double neutral = std::min(1e7, 0.1 / error);
-  return !(rotation < neutral * softness);
+  return !(rotation < neutral * bending_compliance);
 }
 
 // The bending compliance c that counts against a force n, rad/(N m^2). If a rod turns by phi more, the work of n is the
 // form (n . phi)(t . phi) - (n . t) |phi|^2, t the tangent. For t opposite to n this is |n| |phi|^2, of bending only; for t
 // normal to n it mixes bending with torsion. Times c it is largest for t opposite to n, unless torsion is more than twice as
 // compliant as bending.
-double softnessToForce(const Matrix3& c) {
+double complianceToForce(const Matrix3& c) {
   const double bending = std::max(c(0, 0), c(1, 1)), torsion = c(2, 2);
   return torsion > 2.0 * bending ? 0.5 * torsion / std::sqrt(torsion / bending - 1.0) : bending;
 }
@@ -55,14 +55,15 @@ double softnessToForce(const Matrix3& c) {
 // Of M(s, l) = C(min(s, l)) in the measure |n| ds the largest eigenvalue is at most the root of the sum of all squared,
 //   int int C(min(s, l))^2 |n(s)| |n(l)| ds dl = sum over parts p of the same within p, and 2 |n|_p int_{s < p} C^2 |n| ds.
 // Within a segment C and |n| are interpolated linearly (|n| is convex, so this is an upper bound).
-double loadNumber(const Chain& chain, const DeadLoads& loads, const Backbone& backbone) {
+double normalisedLoad(const Chain& chain, const DeadLoads& loads, const Backbone& backbone) {
+  const GaussLegendre& gauss = gaussLegendre(3);  // exact for the polynomials below
   Vector3 n = loads.baseForce(chain);
-  double softness = 0.0;  // C here, rad / (N m)
-  double softest = 0.0;   // largest compliance of the whole robot to a moment about any axis, rad / (N m)
+  double bending_compliance = 0.0;  // C here, rad / (N m)
+  double most_compliant = 0.0;   // largest compliance of the whole robot to a moment about any axis, rad / (N m)
   double before = 0.0;    // int of C^2 |n| up to here
   double sum = 0.0;
   const auto addRigid = [&](double load) {
-    const double own = load * softness * softness;
+    const double own = load * bending_compliance * bending_compliance;
     sum += load * (2.0 * before + own);
     before += own;
   };
@@ -75,36 +76,34 @@ double loadNumber(const Chain& chain, const DeadLoads& loads, const Backbone& ba
     }
     const RestState& rest = backbone.rest[part.segment];
     const double length = rest.stretch * part.length;
-    const double own = softnessToForce(rest.c.bending_torsion) * length;
+    const double own = complianceToForce(rest.c.bending_torsion) * length;
     const double start = n_start * length, change = n.norm() * length - start;
     double within = 0.0, passed = 0.0;
-    for (int i = 0; i < 3; ++i) {  // Gauss-Legendre, exact
-      constexpr double kNodes[] = {0.1127016653792583, 0.5, 0.8872983346207417};
-      constexpr double kWeights[] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
-      const double x = kNodes[i], C = softness + x * own;
-      const double weighted = kWeights[i] * C * C * (start + x * change);
+    for (int i = 0; i < 3; ++i) {
+      const double x = gauss.c[i], C = bending_compliance + x * own;
+      const double weighted = gauss.b[i] * C * C * (start + x * change);
       passed += weighted;
       within += weighted * (1.0 - x) * (start + 0.5 * (1.0 + x) * change);
     }
     sum += 2.0 * (before * (start + 0.5 * change) + within);
     before += passed;
-    softness += own;
-    softest += rest.c.bending_torsion.diagonal().maxCoeff() * length;
+    bending_compliance += own;
+    most_compliant += rest.c.bending_torsion.diagonal().maxCoeff() * length;
   }
   addRigid(n.norm() * chain.tip_offset.norm());
-  return std::sqrt(sum) + angular(loads.tip).norm() * softest / kPi;
+  return std::sqrt(sum) + angular(loads.tip).norm() * most_compliant / kPi;
 }
 
-bool isTipStable(const Matrix6& C, double softness, double error) {
+bool isTipStable(const Matrix6& C, double bending_compliance, double error) {
   const double translation = C.topLeftCorner<3, 3>().trace(), rotation = C.bottomRightCorner<3, 3>().trace();
-  if (!(translation > 0.0) || isNeutral(rotation, softness, error)) return false;
+  if (!(translation > 0.0) || isNeutral(rotation, bending_compliance, error)) return false;
   const double linear = kRounding * translation, angular = kRounding * rotation;
   return isPositiveDefinite<6>(C, {linear, linear, linear, angular, angular, angular});
 }
 
-bool isTipTurningStable(const Matrix3& C, double softness, double error) {
+bool isTipTurningStable(const Matrix3& C, double bending_compliance, double error) {
   const double angular = kRounding * C.trace();
-  return !isNeutral(C.trace(), softness, error) && isPositiveDefinite<3>(C, {angular, angular, angular});
+  return !isNeutral(C.trace(), bending_compliance, error) && isPositiveDefinite<3>(C, {angular, angular, angular});
 }
 
 }  // namespace live_stiffness

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "rod/conjugate_points.h"
-#include "rod/kinematics.h"
 #include "rod/stability.h"
 
 namespace live_stiffness {
@@ -17,22 +16,22 @@ StaticsSolver::StaticsSolver(const Scene& scene, double accuracy, int stages)
       rate_(kSlowestRate) {}
 
 void StaticsSolver::reset() {
-  warm_ = has_columns_ = false;
+  warm_ = has_sensitivities_ = false;
   solutions_ = 0;
-  amplification_ = 1.0;
+  buckling_factor_ = 1.0;
   rate_ = kSlowestRate;
   discretisation_.reset();
 }
 
 void StaticsSolver::forgetGuesses(const DeadLoads& loads, Backbone& backbone) {
   prepare(chain_, loads, backbone);
-  warm_ = has_columns_ = nodes_hold_guess_ = false;
+  warm_ = has_sensitivities_ = nodes_hold_guess_ = false;
   solutions_ = 0;
 }
 
 // Puts the backbone into the unloaded shape; sets the base moment that the loads exert on that shape.
 void StaticsSolver::placeFresh(const DeadLoads& loads, Backbone& backbone) {
-  live_stiffness::placeUnloaded(chain_, backbone);
+  placeUnloaded(chain_, backbone);
   forgetGuesses(loads, backbone);
   nodes_hold_guess_ = true;
   base_moment_ = momentOfUnloaded(loads, backbone);
@@ -41,7 +40,7 @@ void StaticsSolver::placeFresh(const DeadLoads& loads, Backbone& backbone) {
 // Base moment that the loads exert on the unloaded shape, which the backbone must have.
 Vector3 StaticsSolver::momentOfUnloaded(const DeadLoads& loads, const Backbone& backbone) const {
   Vector3 moment = angular(loads.tip) + backbone.X_BT.p.cross(linear(loads.tip) + chain_.tip_mass * loads.gravity);
-  const GaussLegendre& table = gaussLegendre(backbone.passes->stages);
+  const GaussLegendre& table = gaussLegendre(backbone.kernel->stages);
   auto element = backbone.elements.begin();
   Pose X;
   for (const Chain::Part& part : chain_.parts) {
@@ -63,9 +62,9 @@ Vector3 StaticsSolver::momentOfUnloaded(const DeadLoads& loads, const Backbone& 
 }
 
 void StaticsSolver::prepareUnloaded(Backbone& backbone) {
-  warm_ = has_columns_ = false;
+  warm_ = has_sensitivities_ = false;
   solutions_ = 0;
-  amplification_ = 1.0;
+  buckling_factor_ = 1.0;
   rate_ = kSlowestRate;
   discretisation_.chooseUnloaded(backbone);
   prepare(chain_, DeadLoads(), backbone);
@@ -73,40 +72,40 @@ void StaticsSolver::prepareUnloaded(Backbone& backbone) {
 
 // Extrapolates a guess from the last solutions. Sensitivities are not extrapolated where one iteration of them is enough
 // anyway.
-void StaticsSolver::goOn(const DeadLoads& loads, Backbone& backbone) {
+void StaticsSolver::extrapolateGuess(const DeadLoads& loads, Backbone& backbone) {
   constexpr double kOnePass = 1e-4;
-  const History known = accuracy_ < kOnePass && has_columns_ ? History::kColumns : History::kShape;
+  const History known = accuracy_ < kOnePass && has_sensitivities_ ? History::kSensitivities : History::kShape;
   const bool has_history = solutions_ >= 2 && known == history_;
-  const double steadiness = prepare(chain_, loads, backbone, known, has_history);
+  const double extrapolation = prepare(chain_, loads, backbone, known, has_history);
   history_ = known;
   const Vector3 last = base_moment_;
-  base_moment_ += steadiness * (last - moment_before_);
+  base_moment_ += extrapolation * (last - moment_before_);
   moment_before_ = last;
 }
 
 // By the fastest method that converges, on any branch.
 bool StaticsSolver::findEquilibrium(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
-  Known known = !warm_ ? Known::kNothing : has_columns_ ? Known::kColumns : Known::kInverse;
-  if (warm_) goOn(loads, backbone);
+  Known known = !warm_ ? Known::kNone : has_sensitivities_ ? Known::kSensitivities : Known::kInverse;
+  if (warm_) extrapolateGuess(loads, backbone);
   else placeFresh(loads, backbone);
   while (true) {
-    bool converged = quick(loads, known, kMaxSweeps, backbone, report);
+    bool converged = chordIteration(loads, known, kMaxSweeps, backbone, report);
     if (!converged) {
       discretisation_.shorten();
       const bool is_shorter = discretisation_.choose(loads, backbone);
       placeFresh(loads, backbone);
-      converged = is_shorter && quick(loads, Known::kNothing, kMaxSweeps, backbone, report);
+      converged = is_shorter && chordIteration(loads, Known::kNone, kMaxSweeps, backbone, report);
     }
     if (!converged) {
       placeFresh(loads, backbone);
       converged = newton(loads, backbone, 30, report);
     }
     if (!converged || !findTangent(loads, backbone, report)) return false;
-    known = Known::kColumns;
-    if (discretisation_.refine(report.amplification, backbone)) {
+    known = Known::kSensitivities;
+    if (discretisation_.refine(report.buckling_factor, backbone)) {
       forgetGuesses(loads, backbone);
       known = Known::kInverse;
-    } else if (!((report.residual + report.iteration) * report.amplification > accuracy_) ||
+    } else if (!((report.residual + report.iteration) * report.buckling_factor > accuracy_) ||
                report.iterations >= kMaxIterations / 2) {
       return true;
     }
@@ -114,30 +113,30 @@ bool StaticsSolver::findEquilibrium(const DeadLoads& loads, Backbone& backbone, 
 }
 
 bool StaticsSolver::isStable(const DeadLoads& loads, const Backbone& backbone, const StaticsReport& report,
-                             ColumnSet set) const {
+                             SensitivitySet set) const {
   const double error = report.relativeError();
-  return (set == ColumnSet::kAll ? isTipStable(tangent_, softness_, error)
-                                 : isTipTurningStable(tangent_.bottomRightCorner<3, 3>(), softness_, error)) &&
-         !(mayBuckle(loads, backbone) && hasConjugatePoint(backbone));
+  return (set == SensitivitySet::kAll ? isTipStable(tangent_, bending_compliance_, error)
+                                 : isTipTurningStable(tangent_.bottomRightCorner<3, 3>(), bending_compliance_, error)) &&
+         !(mayBuckle(loads, backbone) && conjugatePoints(backbone) > 0);
 }
 
 bool StaticsSolver::mayBuckle(const DeadLoads& loads, const Backbone& backbone) const {
-  return !(loadNumber(chain_, loads, backbone) < 1.0);  // NaN, too
+  return !(normalisedLoad(chain_, loads, backbone) < 1.0);  // NaN, too
 }
 
 StaticsReport StaticsSolver::solve(const DeadLoads& loads, Backbone& backbone) {
   StaticsReport report;
-  softness_ = stiffest_ = 0.0;
+  bending_compliance_ = stiffest_ = 0.0;
   for (const Chain::Part& part : chain_.parts)
     if (part.segment >= 0) {
       const RestState& rest = backbone.rest[part.segment];
       const double length = rest.stretch * part.length;
-      softness_ = std::max(softness_, rest.c.bending_torsion.diagonal().maxCoeff() * length);
+      bending_compliance_ = std::max(bending_compliance_, rest.c.bending_torsion.diagonal().maxCoeff() * length);
       stiffest_ += rest.c.bending_torsion.diagonal().minCoeff() * length;
     }
   // New elements hold no guess, but the base moment is kept.
   if (discretisation_.choose(loads, backbone)) {
-    has_columns_ = nodes_hold_guess_ = false;
+    has_sensitivities_ = nodes_hold_guess_ = false;
     solutions_ = 0;
   }
   // Newton's method may converge to any equilibrium. So where there may be several, it is used only near a stable one.

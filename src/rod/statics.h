@@ -23,7 +23,7 @@ struct StaticsReport {
   double truncation = 0.0;     // estimated relative error of discretisation
   double iteration = 0.0;      // estimated relative error of shape and sensitivities after their last iterations
   double rounding = 0.0;       // estimated relative error of rounding; grows on long chains under tension
-  double amplification = 1.0;  // buckling factor: compliance of the tip divided by that without loads; multiplies the errors
+  double buckling_factor = 1.0;  // buckling factor: compliance of the tip divided by that without loads; multiplies the errors
 
   double relativeError() const { return truncation + residual + iteration + rounding; }
 };
@@ -46,7 +46,7 @@ class StaticsSolver {
   // is that of a cold start.
   StaticsReport solve(const DeadLoads& loads, Backbone& backbone);
 
-  // Makes the backbone ready for placeUnloaded() of compliance/material_compliance.h, and forgets the last solution.
+  // Makes the backbone ready for solveUnloaded() of compliance/material_compliance.h, and forgets the last solution.
   void prepareUnloaded(Backbone& backbone);
 
   const Chain& chain() const { return chain_; }
@@ -64,26 +64,26 @@ class StaticsSolver {
 
   class Finder;  // for the branch search
   enum class Known {  // what is known of a solution nearby
-    kNothing,
+    kNone,
     kInverse,  // inverse of the residual's derivative
-    kColumns,  // the same, and the elements hold its shape and sensitivities
+    kSensitivities,  // the same, and the elements hold its shape and sensitivities
   };
-  bool quick(const DeadLoads& loads, Known known, int max_sweeps, Backbone& backbone, StaticsReport& report);
-  void goOn(const DeadLoads& loads, Backbone& backbone);
+  bool chordIteration(const DeadLoads& loads, Known known, int max_sweeps, Backbone& backbone, StaticsReport& report);
+  void extrapolateGuess(const DeadLoads& loads, Backbone& backbone);
   bool findEquilibrium(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
   bool findAlongLoads(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
-  void polish(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
-  bool findTangent(const DeadLoads& loads, Backbone& backbone, StaticsReport& report, ColumnSet set = ColumnSet::kAll);
+  void refineSolution(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
+  bool findTangent(const DeadLoads& loads, Backbone& backbone, StaticsReport& report, SensitivitySet set = SensitivitySet::kAll);
   bool mayBuckle(const DeadLoads& loads, const Backbone& backbone) const;
   bool isStable(const DeadLoads& loads, const Backbone& backbone, const StaticsReport& report,
-                ColumnSet set = ColumnSet::kAll) const;
+                SensitivitySet set = SensitivitySet::kAll) const;
   bool updateInverse(const DeadLoads& loads, double goal, Backbone& backbone);
-  bool march(const DeadLoads& loads, const Vector3& base_moment, Backbone& backbone, Vector3& residual);
+  bool integrateChain(const DeadLoads& loads, const Vector3& base_moment, Backbone& backbone, Vector3& residual);
   bool newton(const DeadLoads& loads, Backbone& backbone, int max_iterations, StaticsReport& report);
   void forgetGuesses(const DeadLoads& loads, Backbone& backbone);
   void placeFresh(const DeadLoads& loads, Backbone& backbone);
   Vector3 momentOfUnloaded(const DeadLoads& loads, const Backbone& backbone) const;
-  double bendingOf(const Vector3& moment) const { return softness_ * moment.norm(); }
+  double bendingOf(const Vector3& moment) const { return bending_compliance_ * moment.norm(); }
 
   Chain chain_;
   double length_, accuracy_;
@@ -91,14 +91,14 @@ class StaticsSolver {
   Vector3 base_moment_ = Vector3::Zero(), moment_before_ = Vector3::Zero();  // of this solution and the last
   Matrix3 residual_inverse_ = Matrix3::Zero();  // of d residual / d base moment
   Matrix6 tangent_ = Matrix6::Zero();
-  double softness_ = 0.0;      // L c_bt of the most compliant segment, rad / (N m)
+  double bending_compliance_ = 0.0;      // L c_bt of the most compliant segment, rad / (N m)
   double stiffest_ = 0.0;      // rotation of the tip by a unit moment about its stiffest axis, unloaded, rad / (N m)
-  double amplification_ = 1.0; // see StaticsReport, of the last solve
+  double buckling_factor_ = 1.0; // see StaticsReport, of the last solve
   History history_ = History::kNone;  // what the last warm solve kept
   long solutions_ = 0;         // number of consecutive solutions on the same elements
   double rate_;                // convergence rate of the last iterations
   bool warm_ = false;          // base moment and inverse are those of a solution
-  bool has_columns_ = false;   // the elements hold sensitivities of a shape nearby
+  bool has_sensitivities_ = false;   // the elements hold sensitivities of a shape nearby
   bool nodes_hold_guess_ = false;
 };
 

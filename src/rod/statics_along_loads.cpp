@@ -9,8 +9,8 @@
 namespace live_stiffness {
 namespace {
 
-// A brisk search (equal steps, rough on the way) is used up to the normalised load kBrisk, with steps of kStep.
-constexpr double kBrisk = 2.5, kStep = 0.3;
+// A coarse search (equal steps, rough on the way) is used up to the normalised load kLargestCoarse, with steps of kStep.
+constexpr double kLargestCoarse = 2.5, kStep = 0.3;
 constexpr double kRough = 1e-2;            // accuracy of shape and sensitivities on its way
 constexpr double kFarFromBuckling = 4.0;   // buckling factor up to which kRough is enough, since errors grow by it
 // Quasi-Newton iterations are reliable for rods that the loads bend little. Under more load the base moment is needed to more
@@ -24,25 +24,25 @@ constexpr double kRoughElements = 1e-3;    // accuracy of the elements on the wa
 // Finds the equilibrium for one load of a branch search, with more elements where the robot now bends more.
 class StaticsSolver::Finder : public EquilibriumFinder {
  public:
-  // kBrisk: on the way only what isTipTurningStable() needs is computed, roughly; the first load must allow only one
+  // kCoarse: on the way only what isTipTurningStable() needs is computed, roughly; the first load must allow only one
   // equilibrium.
-  enum class Pace { kBrisk, kCareful };
+  enum class Continuation { kCoarse, kAdaptive };
 
-  Finder(StaticsSolver& solver, const DeadLoads& last, Backbone& backbone, StaticsReport& report, Pace pace)
+  Finder(StaticsSolver& solver, const DeadLoads& last, Backbone& backbone, StaticsReport& report, Continuation continuation)
       : solver_(solver), accuracy_(solver.accuracy_), last_(last), backbone_(backbone), report_(report),
-        is_brisk_(pace == Pace::kBrisk), is_first_(is_brisk_) {}
+        is_coarse_(continuation == Continuation::kCoarse), is_first_(is_coarse_) {}
   ~Finder() override { solver_.accuracy_ = accuracy_; }
 
-  std::optional<Equilibrium> settle(const DeadLoads& loads, const Vector3& base_moment) override {
+  std::optional<Equilibrium> solve(const DeadLoads& loads, const Vector3& base_moment) override {
     prepare(solver_.chain_, loads, backbone_);
     const bool is_last = loads.gravity == last_.gravity && loads.tip == last_.tip;
-    const bool is_rough = is_brisk_ && !is_last && solver_.amplification_ < kFarFromBuckling;
+    const bool is_rough = is_coarse_ && !is_last && solver_.buckling_factor_ < kFarFromBuckling;
     solver_.accuracy_ = is_rough ? std::max(accuracy_, kRough) : accuracy_;
-    const ColumnSet set = is_brisk_ && !is_last ? ColumnSet::kBaseMoment : ColumnSet::kAll;
+    const SensitivitySet set = is_coarse_ && !is_last ? SensitivitySet::kBaseMoment : SensitivitySet::kAll;
     Vector3 guess = base_moment;
     bool refined = false;
     do {
-      if (!(settleFirst(loads) || settleQuickly(loads, guess, refined) || settleByNewton(loads, guess)) ||
+      if (!(solveFirst(loads) || solveByChord(loads, guess, refined) || solveByNewton(loads, guess)) ||
           !solver_.findTangent(loads, backbone_, report_, set)) {
         solver_.forgetGuesses(loads, backbone_);
         return std::nullopt;
@@ -57,36 +57,36 @@ class StaticsSolver::Finder : public EquilibriumFinder {
 
  private:
   // From the unloaded shape.
-  bool settleFirst(const DeadLoads& loads) {
+  bool solveFirst(const DeadLoads& loads) {
     if (!is_first_) return false;
     is_first_ = false;
     solver_.base_moment_ = solver_.momentOfUnloaded(loads, backbone_);
-    return solver_.quick(loads, Known::kNothing, kMaxSweeps, backbone_, report_);
+    return solver_.chordIteration(loads, Known::kNone, kMaxSweeps, backbone_, report_);
   }
   // From shape and sensitivities at the loads before, or from the base moment found with fewer elements.
-  bool settleQuickly(const DeadLoads& loads, const Vector3& base_moment, bool refined) {
-    const int few_sweeps = is_brisk_ || loadNumber(solver_.chain_, loads, backbone_) < kLittle ? 30 : 12;
-    const bool has_columns = solver_.nodes_hold_guess_ && solver_.has_columns_;
-    if (!(has_columns || refined) || solver_.amplification_ > kAwayFromBuckling) return false;
-    if (has_columns) {
+  bool solveByChord(const DeadLoads& loads, const Vector3& base_moment, bool refined) {
+    const int few_sweeps = is_coarse_ || normalisedLoad(solver_.chain_, loads, backbone_) < kLittle ? 30 : 12;
+    const bool has_sensitivities = solver_.nodes_hold_guess_ && solver_.has_sensitivities_;
+    if (!(has_sensitivities || refined) || solver_.buckling_factor_ > kAwayFromBuckling) return false;
+    if (has_sensitivities) {
       const Vector3 step = base_moment - solver_.base_moment_;
       const ChainState chain = stateOf(solver_.chain_, loads, base_moment, backbone_);
-      backbone_.passes->follow_all(chain, {step.x(), step.y(), step.z()});
+      backbone_.kernel->follow_all(chain, {step.x(), step.y(), step.z()});
     }
     solver_.base_moment_ = base_moment;
     const int before = report_.iterations;
-    const Known known = has_columns ? Known::kColumns : Known::kInverse;
-    const bool settled = solver_.quick(loads, known, few_sweeps, backbone_, report_);
+    const Known known = has_sensitivities ? Known::kSensitivities : Known::kInverse;
+    const bool converged = solver_.chordIteration(loads, known, few_sweeps, backbone_, report_);
     report_.iterations = before + 1;  // as much work as one converged shot
-    return settled;
+    return converged;
   }
-  bool settleByNewton(const DeadLoads& loads, const Vector3& base_moment) {
+  bool solveByNewton(const DeadLoads& loads, const Vector3& base_moment) {
     solver_.base_moment_ = base_moment;
     solver_.warm_ = false;
     return solver_.newton(loads, backbone_, 12, report_);
   }
   bool refine(const DeadLoads& loads, double tolerated) {
-    if (!solver_.discretisation_.refine(report_.amplification, backbone_, tolerated)) return false;
+    if (!solver_.discretisation_.refine(report_.buckling_factor, backbone_, tolerated)) return false;
     solver_.forgetGuesses(loads, backbone_);
     return true;
   }
@@ -96,15 +96,15 @@ class StaticsSolver::Finder : public EquilibriumFinder {
   const DeadLoads& last_;
   Backbone& backbone_;
   StaticsReport& report_;
-  const bool is_brisk_;
+  const bool is_coarse_;
   bool is_first_;
 };
 
 // Refines a solution to the full accuracy; restores it if that fails or leads to an equilibrium that is not stable.
-void StaticsSolver::polish(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
+void StaticsSolver::refineSolution(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
   const Vector3 before = base_moment_;
   StaticsReport finer;
-  if (quick(loads, Known::kColumns, kMaxSweeps, backbone, finer) && findTangent(loads, backbone, finer) &&
+  if (chordIteration(loads, Known::kSensitivities, kMaxSweeps, backbone, finer) && findTangent(loads, backbone, finer) &&
       isStable(loads, backbone, finer)) {
     report.residual = finer.residual;
     report.iteration = finer.iteration;
@@ -112,7 +112,7 @@ void StaticsSolver::polish(const DeadLoads& loads, Backbone& backbone, StaticsRe
     Vector3 residual;
     base_moment_ = before;
     forgetGuesses(loads, backbone);
-    report.stable = march(loads, before, backbone, residual) && findTangent(loads, backbone, report);
+    report.stable = integrateChain(loads, before, backbone, residual) && findTangent(loads, backbone, report);
   }
   report.iterations += finer.iterations;
 }
@@ -120,28 +120,28 @@ void StaticsSolver::polish(const DeadLoads& loads, Backbone& backbone, StaticsRe
 bool StaticsSolver::findAlongLoads(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
   discretisation_.choose(loads, backbone);
   placeFresh(DeadLoads(), backbone);
-  const double load_number = loadNumber(chain_, loads, backbone);
+  const double normalised_load = normalisedLoad(chain_, loads, backbone);
   BranchEnd end = BranchEnd::kNotConverged;
-  if (load_number < kBrisk) {
-    Finder finder(*this, loads, backbone, report, Finder::Pace::kBrisk);
+  if (normalised_load < kLargestCoarse) {
+    Finder finder(*this, loads, backbone, report, Finder::Continuation::kCoarse);
     BranchSearch search(finder, length_);
     const Equilibrium unloaded{Vector3::Zero(), backbone.X_BT.p, {}, true};
-    const int steps = std::max(1, static_cast<int>(std::ceil(load_number / kStep)));
-    if (search.runBriskly(loads, unloaded, steps)) end = BranchEnd::kLoading;
+    const int steps = std::max(1, static_cast<int>(std::ceil(normalised_load / kStep)));
+    if (search.runCoarse(loads, unloaded, steps)) end = BranchEnd::kLoading;
   }
   if (end != BranchEnd::kLoading) {
     discretisation_.shorten();
     discretisation_.choose(loads, backbone);
     placeFresh(DeadLoads(), backbone);
-    Finder finder(*this, loads, backbone, report, Finder::Pace::kCareful);
+    Finder finder(*this, loads, backbone, report, Finder::Continuation::kAdaptive);
     BranchSearch search(finder, length_);
     end = search.run(loads);
     report.stable_share = search.stableShare();
   }
   report.buckled = end == BranchEnd::kBuckled;
   report.stable = report.buckled || end == BranchEnd::kLoading;
-  if (report.stable && (report.residual + report.iteration) * report.amplification > accuracy_)
-    polish(loads, backbone, report);
+  if (report.stable && (report.residual + report.iteration) * report.buckling_factor > accuracy_)
+    refineSolution(loads, backbone, report);
   return end != BranchEnd::kNotConverged;
 }
 

@@ -8,14 +8,14 @@ namespace {
 
 // A 6-vector [linear; angular] in SIMD vectors.
 struct Six {
-  static constexpr int kVectors = (6 + kLanes - 1) / kLanes;
-  Lanes v[kVectors];
+  static constexpr int kVectors = (6 + kPackSize - 1) / kPackSize;
+  Pack v[kVectors];
 
   LIVE_STIFFNESS_INLINE Six(const double (&a)[3], const double (&b)[3]) {
-#if LIVE_STIFFNESS_LANES == 4
-    v[0] = Lanes{a[0], a[1], a[2], b[0]}, v[1] = Lanes{b[1], b[2], 0.0, 0.0};
+#if LIVE_STIFFNESS_PACK == 4
+    v[0] = Pack{a[0], a[1], a[2], b[0]}, v[1] = Pack{b[1], b[2], 0.0, 0.0};
 #else
-    v[0] = Lanes{a[0], a[1]}, v[1] = Lanes{a[2], b[0]}, v[2] = Lanes{b[1], b[2]};
+    v[0] = Pack{a[0], a[1]}, v[1] = Pack{a[2], b[0]}, v[2] = Pack{b[1], b[2]};
 #endif
   }
   LIVE_STIFFNESS_INLINE void add(double k, const Six& a) {
@@ -24,8 +24,8 @@ struct Six {
   // With four lanes it also writes the two numbers behind the column, unless it is the last.
   LIVE_STIFFNESS_INLINE void store(double* to, bool last) const {
     for (int i = 0; i < kVectors; ++i) {
-      if (kLanes * (i + 1) <= 6 || !last) storeUnaligned(to + kLanes * i, v[i]);
-      else for (int k = kLanes * i; k < 6; ++k) to[k] = v[i][k % kLanes];
+      if (kPackSize * (i + 1) <= 6 || !last) storeUnaligned(to + kPackSize * i, v[i]);
+      else for (int k = kPackSize * i; k < 6; ++k) to[k] = v[i][k % kPackSize];
     }
   }
 };
@@ -33,7 +33,7 @@ struct Six {
 // With dm0 = X df + Y dM, X = -A^-1 B, Y = A^-1 from the residual's columns [A, B]: [df; dM] to the twist of T is
 // C = (Q + T^T G) T with T = [X, Y; I, 0], Q the twists of the columns and G their adjoint-weighted residual, if corrected.
 // A_inverse, C: column-major.
-void tangent(const ElementColumns& tip, bool correct, double* A_inverse, double* C) {
+void tangent(const ElementSensitivities& tip, bool correct, double* A_inverse, double* C) {
   double row[3][3], Y[3][3], X[3][3];  // Y[k][j], X[k][j]: entry (k, j)
   crossInto(tip.m[1], tip.m[2][0], tip.m[2][1], tip.m[2][2], row[0]);
   crossInto(tip.m[2], tip.m[0][0], tip.m[0][1], tip.m[0][2], row[1]);
@@ -52,8 +52,8 @@ void tangent(const ElementColumns& tip, bool correct, double* A_inverse, double*
     const double nothing[3] = {};
 #pragma GCC unroll 6
     for (int j = 0; j < 6; ++j) {
-      for (int k = 0; k < 3; ++k) H[j].add(tip.defect[k][j], T[k]);
-      H[j].add(1.0, Six({tip.defect[3][j], tip.defect[4][j], tip.defect[5][j]}, nothing));
+      for (int k = 0; k < 3; ++k) H[j].add(tip.adjoint_residual[k][j], T[k]);
+      H[j].add(1.0, Six({tip.adjoint_residual[3][j], tip.adjoint_residual[4][j], tip.adjoint_residual[5][j]}, nothing));
     }
   }
 #pragma GCC unroll 6

@@ -4,7 +4,6 @@
 #include <cstdio>
 
 #include "live_stiffness/analysis/holding_wrench.h"
-#include "estimation/tip_force.h"
 #include "ros/conversions.h"
 
 namespace live_stiffness {

@@ -10,8 +10,4 @@ int stepCount(double largest_pressure, double pressure_step) {
   return std::max(1, whole + (steps > whole));
 }
 
-RestState restState(const CrossSection& section, PressuresRef pressures, Stepping stepping, int steps) {
-  return LoadStepper(section).restState(pressures, stepping, steps);
-}
-
 }  // namespace live_stiffness

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "gauss_legendre.h"
-#include "live_stiffness/section/load_stepping.h"
+#include "section/load_stepping.h"
 
 namespace live_stiffness {
 namespace load_stepping {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "live_stiffness/analysis/stiffness_matrix.h"
+#include "support/frames.h"
 #include "support/matrix_near.h"
 #include "support/random_matrices.h"
 #include "support/scenes.h"

@@ -1,5 +1,6 @@
 #include "live_stiffness/analysis/ellipsoid.h"
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include <random>

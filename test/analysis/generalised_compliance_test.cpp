@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "live_stiffness/checks.h"
+#include "rod/backbone.h"
 #include "support/differences.h"
 #include "support/errors.h"
 #include "support/matrix_near.h"

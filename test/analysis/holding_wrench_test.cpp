@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "rod/backbone.h"
 #include "support/errors.h"
 #include "support/matrix_near.h"
 #include "support/random_source.h"

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/frames.h"
 #include "support/matrix_near.h"
 #include "support/random_matrices.h"
 

@@ -6,10 +6,11 @@
 #include <fstream>
 #include <iostream>
 
-#include "section/accumulated_rest_state.h"
+#include "support/accumulated_rest_state.h"
 #include "programs/progress_bar.h"
 #include "support/pressure_cycles.h"
 #include "support/scenes.h"
+#include "support/rest_state.h"
 
 namespace live_stiffness {
 namespace {

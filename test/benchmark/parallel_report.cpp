@@ -6,6 +6,7 @@
 
 #include "benchmark/timing.h"
 #include "parallel/parallel_cases.h"
+#include "parallel/parallel_statics.h"
 #include "support/errors.h"
 
 using namespace live_stiffness;
@@ -28,7 +29,7 @@ std::vector<Sample> makePath(const ParallelScene& scene, const Pose& X_BP) {
   const ParallelModel model(scene, {1e-13});
   ParallelWorkspace workspace = model.makeWorkspace();
   model.solveForLengths(X_BP, Wrench::Zero(), workspace);
-  const std::vector<double> middle = lengthsOf(workspace);
+  const std::vector<double> middle = workspace.lengths();
   std::vector<Sample> path(kSamples);
   for (int i = 0; i < kSamples; ++i) {
     path[i].lengths = middle;
@@ -48,8 +49,8 @@ ParallelSolution update(const ParallelModel& model, Way way, const Sample& sampl
 
 void measure(const ParallelScene& scene, char configuration, const std::vector<Sample>& path, Way way,
              double accuracy, Simd simd, double seconds) {
-  const ParallelModel model(scene, {accuracy, simd});
-  ParallelWorkspace workspace = model.makeWorkspace();
+  const ParallelModel model(scene, {accuracy});
+  ParallelWorkspace workspace(std::make_unique<ParallelStatics>(model.scene(), accuracy, simd));
   double error = 0.0, estimate = 0.0, iterations = 0.0;
   int failed = 0;
   for (const Sample& sample : path) {
@@ -62,7 +63,7 @@ void measure(const ParallelScene& scene, char configuration, const std::vector<S
     iterations += solution.iterations / static_cast<double>(path.size());
   }
   size_t elements = 0;
-  for (const HeldRod& rod : workspace.rods()) elements += rod.backbone().elements.size();
+  for (const ClampedRod& rod : workspace.statics().rods()) elements += rod.backbone().elements.size();
   std::vector<float> times_us;
   const double end = processorSeconds() + seconds;
   for (size_t i = 0; processorSeconds() < end; ++i) {

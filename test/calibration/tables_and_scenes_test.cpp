@@ -5,7 +5,7 @@
 #include "calibration/compliance_table.h"
 #include "calibration/scene_text.h"
 #include "live_stiffness/checks.h"
-#include "live_stiffness/estimation/creep.h"
+#include "estimation/creep.h"
 #include "live_stiffness/rod/scene_file.h"
 #include "support/scenes.h"
 

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "compliance/station_reader.h"
 #include "live_stiffness/compliance/stiffness_model.h"
+#include "rod/statics.h"
 #include "support/errors.h"
 #include "support/matrix_near.h"
 #include "support/random_source.h"
@@ -126,8 +128,8 @@ TEST(PlaceUnloaded, ArcsEqualQuadratureOfTheSameElements) {
       StaticsSolver(scene, 1e-13).prepareUnloaded(*backbone);
     }
     Matrix6 by_arcs, by_quadrature;
-    placeUnloaded(solver.chain(), 1e-13, arcs, by_arcs);
-    placeUnloaded(solver.chain(), 1e-13, quadrature, by_quadrature);
+    solveUnloaded(solver.chain(), 1e-13, arcs, by_arcs);
+    solveUnloaded(solver.chain(), 1e-13, quadrature, by_quadrature);
     // Twelve nodes on 1.5 rad err by 2e-13 of their largest integrand (interpolationError in material_choice_code.h).
     EXPECT_LT(complianceError(by_arcs, by_quadrature, 0.08), 1e-12) << bending;
     EXPECT_LT(poseError(arcs.X_BT, quadrature.X_BT, 0.08), 1e-14) << bending;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "live_stiffness/compliance/stiffness_model.h"
+#include "rod/statics.h"
 #include "support/differences.h"
 #include "support/errors.h"
 #include "support/matrix_near.h"

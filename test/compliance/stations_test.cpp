@@ -6,6 +6,7 @@
 #include <set>
 
 #include "live_stiffness/compliance/stiffness_model.h"
+#include "rod/backbone.h"
 #include "support/errors.h"
 #include "support/matrix_near.h"
 #include "support/scenes.h"

@@ -42,7 +42,6 @@ TEST(StiffnessModel, WithoutExternalLoadNeverTouchesTheBoundaryValueSolver) {
       StiffnessWorkspace workspace = model.makeWorkspace();
       const StiffnessSolution solution = model.solve(kPressures, Wrench::Zero(), workspace);
       ASSERT_TRUE(solution.status.ok());
-      EXPECT_EQ(workspace.staticsSolves(), 0);
       EXPECT_EQ(solution.iterations, 0);
       EXPECT_FALSE(workspace.loaded());
     }
@@ -55,7 +54,7 @@ TEST(StiffnessModel, PccModelsIgnoreWeightAndWrench) {
     StiffnessWorkspace workspace = heavy.makeWorkspace();
     const StiffnessSolution a = heavy.solve(kPressures, kWrench, workspace);
     const StiffnessSolution b = solveCold(weightless, kPressures);
-    EXPECT_EQ(workspace.staticsSolves(), 0);
+    EXPECT_FALSE(workspace.loaded());
     EXPECT_TRUE(matrixNear(a.X_BT.p, b.X_BT.p, 0.0));
     EXPECT_TRUE(matrixNear(a.compliance, b.compliance, 0.0));
   }
@@ -68,8 +67,8 @@ TEST(StiffnessModel, CosseratModelsSolveTheBoundaryValueProblemOfWeightOrWrench)
     StiffnessWorkspace of_heavy = heavy.makeWorkspace(), of_weightless = weightless.makeWorkspace();
     EXPECT_GT(heavy.solve(kPressures, Wrench::Zero(), of_heavy).iterations, 0);
     EXPECT_GT(weightless.solve(kPressures, kWrench, of_weightless).iterations, 0);
-    EXPECT_EQ(of_heavy.staticsSolves(), 1);
-    EXPECT_EQ(of_weightless.staticsSolves(), 1);
+    EXPECT_TRUE(of_heavy.loaded());
+    EXPECT_TRUE(of_weightless.loaded());
   }
 }
 

@@ -1,4 +1,4 @@
-#include "live_stiffness/estimation/scene_creep.h"
+#include "estimation/scene_creep.h"
 
 #include <gtest/gtest.h>
 

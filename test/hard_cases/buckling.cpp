@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "hard_cases/hard_case.h"
+#include "rod/statics.h"
 #include "support/bare_rod.h"
 #include "support/elastica.h"
 #include "support/moment_balance.h"

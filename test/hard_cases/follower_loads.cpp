@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "hard_cases/hard_case.h"
-#include "rod/kinematics.h"
 #include "rod/shooting.h"
 #include "support/bare_rod.h"
 #include "support/shared_data.h"
@@ -62,15 +61,15 @@ void tipLoadByContinuation(HardOutcome& outcome) {
     double missed = 1.0;
     for (int i = 0; i < 8 && missed > 1e-12; ++i) {
       prepare(chain, loads, backbone);
-      ElementColumns tip;
+      ElementSensitivities tip;
       outcome.expect(shoot(chain, loads, m0, true, backbone, residual), "a shot converges");
-      outcome.expect(std::isfinite(tipColumns(chain, loads, i == 0, 1e-10, backbone, tip)), "columns converge");
+      outcome.expect(std::isfinite(tipSensitivities(chain, loads, i == 0, 1e-10, backbone, tip)), "columns converge");
       const Vector3 across = backbone.X_BT.R.col(0), force = F * across;
       Vector6 miss;
       miss << residual, linear(loads.tip) - force;
       Matrix6 slope;
-      slope << columnsOf(tip.m), Matrix3::Zero(), Matrix3::Identity();
-      slope.bottomRows<3>() += hat(force) * columnsOf(tip.phi);
+      slope << sensitivityMatrix(tip.m), Matrix3::Zero(), Matrix3::Identity();
+      slope.bottomRows<3>() += hat(force) * sensitivityMatrix(tip.phi);
       const auto lu = slope.partialPivLu();
       const Vector6 step = lu.solve(miss);
       m0 -= step.head<3>();

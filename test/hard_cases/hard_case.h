@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "live_stiffness/compliance/stiffness_model.h"
+#include "rod/statics.h"
 #include "support/scenes.h"
 
 namespace live_stiffness {

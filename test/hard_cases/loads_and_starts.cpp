@@ -5,6 +5,7 @@
 
 #include "hard_cases/hard_case.h"
 #include "rig/fine_robot.h"
+#include "rod/statics.h"
 #include "support/bare_rod.h"
 #include "support/elastica.h"
 #include "support/errors.h"

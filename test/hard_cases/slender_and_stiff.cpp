@@ -4,6 +4,7 @@
 
 #include "hard_cases/hard_case.h"
 #include "rig/fine_robot.h"
+#include "section/section_moments.h"
 #include "support/errors.h"
 #include "support/scaled_scene.h"
 

@@ -4,11 +4,13 @@
 
 #include "hard_cases/hard_case.h"
 #include "compliance/material_compliance.h"
-#include "rod/kinematics.h"
+#include "rod/backbone.h"
+#include "rod/shooting.h"
 #include "support/bare_rod.h"
 #include "support/errors.h"
 #include "support/planar_chain.h"
 #include "support/scenes.h"
+#include "support/rest_state.h"
 
 namespace live_stiffness {
 namespace {
@@ -140,7 +142,7 @@ void helixAtRest(HardOutcome& outcome) {
   StaticsSolver unloaded(rod.scene, 1e-12);
   Matrix6 unused;
   unloaded.prepareUnloaded(closed);
-  placeUnloaded(unloaded.chain(), 1e-12, closed, unused);
+  solveUnloaded(unloaded.chain(), 1e-12, closed, unused);
   const Vector3 expected = helixPoint(rod.rest.curvature, 1.0);
   outcome.error((closed.X_BT.p - expected).norm(), 1e-14, "closed form");
   Backbone solved = rod.backbone();

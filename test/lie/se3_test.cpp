@@ -1,5 +1,6 @@
 #include "live_stiffness/lie/se3.h"
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include "support/matrix_near.h"
@@ -174,6 +175,15 @@ TEST(ComplianceInBodyAxes, MapsBodyWrenchToBodyTwist) {
   linear(twist) = (R.transpose() * linear(twist)).eval();
   angular(twist) = (R.transpose() * angular(twist)).eval();
   EXPECT_TRUE(matrixNear(complianceInBodyAxes(C, R) * in_body, twist, 4e-15));
+}
+
+TEST(ResidualTwist, TakesThePredictedPoseToTheMeasuredOne) {
+  const Pose predicted{expSo3(Vector3(0.3, 0.2, -0.5)), Vector3(0.01, 0.02, 0.03)};
+  const Vector3 turn(0.02, -0.01, 0.03);
+  const Pose measured{expSo3(turn) * predicted.R, predicted.p + Vector3(1e-3, 0.0, -2e-3)};
+  const Twist residual = residualTwist(measured, predicted);
+  EXPECT_LT((linear(residual) - Vector3(1e-3, 0.0, -2e-3)).norm(), 1e-16);  // rounding of 0.03 m
+  EXPECT_LT((angular(residual) - turn).norm(), 1e-15);
 }
 
 }  // namespace

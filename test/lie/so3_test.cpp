@@ -1,5 +1,6 @@
 #include "live_stiffness/lie/so3.h"
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include "support/differences.h"

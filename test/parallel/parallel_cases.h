@@ -36,12 +36,6 @@ inline Pose figure18Pose(char configuration) {
   return {expSo3(Vector3(0.0, radians(30.0), 0.0)), Vector3(0.0, 0.0, 0.4)};
 }
 
-inline std::vector<double> lengthsOf(const ParallelWorkspace& workspace) {
-  std::vector<double> lengths;
-  for (const HeldRod& rod : workspace.rods()) lengths.push_back(rod.length());
-  return lengths;
-}
-
 // Lengths that differ by up to a few per cent, so that the platform leans and shifts.
 inline std::vector<double> unevenLengths() { return {0.40, 0.41, 0.405, 0.42, 0.415, 0.41}; }
 

@@ -8,6 +8,7 @@
 
 #include "live_stiffness/analysis/ellipsoid.h"
 #include "parallel/parallel_cases.h"
+#include "parallel/parallel_statics.h"
 #include "support/differences.h"
 #include "support/errors.h"
 #include "support/matrix_near.h"
@@ -112,7 +113,7 @@ TEST(ParallelEquilibrium, IsConfirmedByRungeKutta) {
     double size = linear(load).norm(), weight = c.scene.platform_mass;
     Vector3 reaction = Vector3::Zero();
     for (int i = 0; i < c.scene.rodCount(); ++i) {
-      const HeldRod& rod = workspace.rods()[i];
+      const ClampedRod& rod = workspace.statics().rods()[i];
       const ParallelRod& data = c.scene.rods[i];
       const RodEnd end = marchRod(data.section, data.X_BR, rod.length(), rod.baseWrench(), gravity, 400);
       EXPECT_LT(poseError(end.X, solution.X_BP * data.X_PE, kLength), 1e-9) << "rod " << i;  // RK4: (1/400)^4
@@ -197,7 +198,7 @@ TEST(ParallelModel, LeadsFromPoseToLengthsAndBack) {
       const Pose wanted{expSo3(turn), Vector3(0.03, -0.02, 0.42)};
       const ParallelSolution inverse = model.solveForLengths(wanted, c.wrench, workspace);
       ASSERT_TRUE(inverse.status.ok()) << model.describe(inverse.status);
-      const ParallelSolution forward = solveCold(model, lengthsOf(workspace), c.wrench);
+      const ParallelSolution forward = solveCold(model, workspace.lengths(), c.wrench);
       ASSERT_TRUE(forward.status.ok()) << model.describe(forward.status);
       EXPECT_LT(poseError(forward.X_BP, wanted, kLength), 1e-9);
       EXPECT_LT(complianceError(forward.compliance, inverse.compliance, kLength), 1e-8);
@@ -320,7 +321,7 @@ TEST(ParallelModel, PlacesStationsAlongItsRods) {
   std::vector<Pose> stations;
   for (int i = 0; i < scene.rodCount(); ++i) {
     model.stations(workspace, i, {0.0, 0.5, 1.0}, stations);
-    const HeldRod& rod = workspace.rods()[i];
+    const ClampedRod& rod = workspace.statics().rods()[i];
     EXPECT_LT(poseError(stations[0], scene.rods[i].X_BR, kLength), 1e-12);
     EXPECT_LT(poseError(stations[2], solution.X_BP * scene.rods[i].X_PE, kLength), 1e-8);
     // Half the rod, under the same base wrench.

@@ -13,7 +13,7 @@ class OneDegreeOfFreedom : public EquilibriumFinder {
  public:
   OneDegreeOfFreedom(double a, double imperfection) : a_(a), imperfection_(imperfection) {}
 
-  std::optional<Equilibrium> settle(const DeadLoads& loads, const Vector3& base_moment) override {
+  std::optional<Equilibrium> solve(const DeadLoads& loads, const Vector3& base_moment) override {
     const double load = loads.gravity.x(), push = loads.tip[0] + imperfection_ * load;
     double x = base_moment.x();
     for (int i = 0; i < 12; ++i) {
@@ -88,7 +88,7 @@ TEST(BranchSearch, StaysOnTheBranchFromZeroBelowTheBifurcation) {
 
 TEST(BranchSearch, RunsBrisklyToWhereItRunsCarefully) {
   OneDegreeOfFreedom brisk(1.0, 0.1), careful(1.0, 0.1);
-  EXPECT_TRUE(BranchSearch(brisk, 1.0).runBriskly(load(0.9), Equilibrium(), 2));
+  EXPECT_TRUE(BranchSearch(brisk, 1.0).runCoarse(load(0.9), Equilibrium(), 2));
   EXPECT_EQ(BranchSearch(careful, 1.0).run(load(0.9)), BranchEnd::kLoading);
   EXPECT_NEAR(brisk.at, careful.at, 1e-9);
 }
@@ -96,9 +96,9 @@ TEST(BranchSearch, RunsBrisklyToWhereItRunsCarefully) {
 // Past the bifurcation, where it snaps to, and by a step that ends far from where the ones before let expect.
 TEST(BranchSearch, DoesNotRunBrisklyWhereThereIsMoreToTell) {
   OneDegreeOfFreedom straight(1.0, 0.0), snapping(-1.0, 0.05), jumping(-1.0, 0.3);
-  EXPECT_FALSE(BranchSearch(straight, 1.0).runBriskly(load(1.5), Equilibrium(), 3));
-  EXPECT_FALSE(BranchSearch(snapping, 1.0).runBriskly(load(1.2), Equilibrium(), 2));
-  EXPECT_FALSE(BranchSearch(jumping, 0.1).runBriskly(load(0.9), Equilibrium(), 2));
+  EXPECT_FALSE(BranchSearch(straight, 1.0).runCoarse(load(1.5), Equilibrium(), 3));
+  EXPECT_FALSE(BranchSearch(snapping, 1.0).runCoarse(load(1.2), Equilibrium(), 2));
+  EXPECT_FALSE(BranchSearch(jumping, 0.1).runCoarse(load(0.9), Equilibrium(), 2));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "live_stiffness/compliance/stiffness_model.h"
+#include "rod/backbone.h"
 #include "support/matrix_near.h"
 #include "support/random_source.h"
 #include "support/scenes.h"

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "rod/backbone.h"
 #include "support/bare_rod.h"
 #include "support/scenes.h"
 
@@ -14,7 +15,7 @@ namespace live_stiffness {
 namespace {
 
 double loadNumberOf(const BareRod& rod, const DeadLoads& loads) {
-  return loadNumber(Chain(rod.scene), loads, rod.backbone());
+  return normalisedLoad(Chain(rod.scene), loads, rod.backbone());
 }
 
 TEST(LoadNumber, IsTheShareOfEulersLoad) {
@@ -90,7 +91,7 @@ TEST(LoadNumber, BoundsTheEigenvaluesOfAChain) {
   for (Eigen::Index i = 0; i < size; ++i)
     for (Eigen::Index j = 0; j < size; ++j) M(i, j) = std::min(softness[i], softness[j]) * std::sqrt(weight[i] * weight[j]);
   const double largest = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(M, Eigen::EigenvaluesOnly).eigenvalues()[size - 1];
-  const double number = loadNumber(chain, loads, backbone);
+  const double number = normalisedLoad(chain, loads, backbone);
   EXPECT_GT(number, largest);
   EXPECT_LT(number, 1.02 * largest);
   EXPECT_NEAR(number / M.norm(), 1.0, 2e-3);

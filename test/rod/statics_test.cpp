@@ -6,7 +6,6 @@
 #include <iostream>
 
 #include "compliance/material_compliance.h"
-#include "rod/kinematics.h"
 #include "support/differences.h"
 #include "support/errors.h"
 #include "support/literal_rod.h"
@@ -14,6 +13,7 @@
 #include "support/moment_balance.h"
 #include "support/random_source.h"
 #include "support/scenes.h"
+#include "support/rest_state.h"
 
 namespace live_stiffness {
 namespace {
@@ -133,7 +133,7 @@ TEST(Statics, WithoutLoadIsTheUnloadedShape) {
   closed.rest = backbone.rest;
   Matrix6 unused;
   solver.prepareUnloaded(closed);
-  placeUnloaded(solver.chain(), 1e-12, closed, unused);
+  solveUnloaded(solver.chain(), 1e-12, closed, unused);
   EXPECT_LT(poseError(backbone.X_BT, closed.X_BT, scene.length()), 1e-12);  // the accuracy asked for
 }
 
@@ -210,7 +210,7 @@ TEST(TangentCompliance, DivergesAtReissnersBucklingLoad) {
   EXPECT_NEAR(0.999 - b * 0.001 / (b - a), 1.0, 3e-6);
 }
 
-// Warm solves go on from the last change. That may save passes; it must not show in the result, whatever the pressures
+// Warm solves go on from the last change. That may save kernel; it must not show in the result, whatever the pressures
 // do next.
 TEST(WarmStart, IsAsAccurateAsAColdOneWhateverThePressuresDo) {
   const std::vector<Pressures> steps = {bars(0.40, {1, 1, 0.5, 0.5, 0, 0}), bars(0.41, {1, 1, 0.5, 0.5, 0, 0}),

@@ -10,7 +10,6 @@
 #include <limits>
 #include <vector>
 
-#include "estimation/tip_force.h"
 
 namespace live_stiffness {
 namespace {

@@ -1,13 +1,15 @@
-#include "section/accumulated_rest_state.h"
+#include "support/accumulated_rest_state.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "rod/backbone.h"
 #include "support/errors.h"
 #include "support/matrix_near.h"
 #include "support/pressure_cycles.h"
 #include "support/scenes.h"
+#include "support/rest_state.h"
 
 namespace live_stiffness {
 namespace {

@@ -1,9 +1,11 @@
 #include "live_stiffness/section/cross_section.h"
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "section/section_moments.h"
 #include "support/matrix_near.h"
 #include "support/scenes.h"
 

@@ -1,4 +1,4 @@
-#include "live_stiffness/section/load_stepping.h"
+#include "section/load_stepping.h"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,7 @@
 #include "support/matrix_near.h"
 #include "support/random_source.h"
 #include "support/scenes.h"
+#include "support/rest_state.h"
 
 namespace live_stiffness {
 namespace {

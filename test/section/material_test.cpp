@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "rig/fine_robot.h"
-#include "live_stiffness/section/load_stepping.h"
+#include "support/rest_state.h"
 #include "support/scenes.h"
 
 namespace live_stiffness {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "rod/statics.h"
 #include "support/errors.h"
 #include "support/moment_balance.h"
 #include "support/random_source.h"

@@ -2,8 +2,10 @@
 
 #include <stdexcept>
 
+#include "rod/backbone.h"
 #include "support/errors.h"
 #include "support/literal_rod.h"
+#include "support/rest_state.h"
 
 namespace live_stiffness {
 namespace {

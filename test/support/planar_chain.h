@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "live_stiffness/section/load_stepping.h"
+#include "section/load_stepping.h"
 
 namespace live_stiffness {
 

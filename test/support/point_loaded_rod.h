@@ -6,7 +6,7 @@
 
 #include "live_stiffness/lie/se3.h"
 #include "rod/chain.h"
-#include "live_stiffness/section/load_stepping.h"
+#include "section/load_stepping.h"
 
 namespace live_stiffness {
 

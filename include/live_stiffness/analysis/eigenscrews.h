@@ -1,14 +1,14 @@
 #pragma once
-// Eigenscrew decomposition (21) of a stiffness or compliance matrix, K Delta and C Delta.
+// Eigenscrew decomposition (21) of a stiffness matrix, K Delta.
 //
 // Shi et al. 2.4.2; S. Huang and J. M. Schimmels, "The eigenscrew decomposition of spatial stiffness matrices", IEEE
 // Transactions on Robotics and Automation 16(2), 2000. Any positive definite K is six screw springs:
 //   K = sum_i k_i w_i w_i^T,  w_i = [n_i; r_i x n_i + h_i n_i],  eta_i = 2 h_i k_i,
-// each a linear spring of stiffness k_i along a line that also turns, with pitch h_i. K Delta w_i = eta_i w_i. C has
-// the same six screws, with t_i = [r_i x n_i + h_i n_i; n_i], C Delta t_i = t_i / eta_i.
+// each a linear spring of stiffness k_i along a line that also turns, with pitch h_i. K Delta w_i = eta_i w_i. Those of
+// C = K^-1 are the same six screws, with eigenvalues 1 / eta_i.
 //
 // Lines and pitches are properties of the spring and not of the frame, so eigenvalues and pitches do not depend on it.
-// Both eigenvalue problems are unsymmetric and may be badly scaled, and are therefore not solved as they stand: with
+// The eigenvalue problem is unsymmetric and may be badly scaled, and is therefore not solved as it stands: with
 // the Cholesky factor K = L L^T, K Delta has the eigenvalues of the symmetric L^T Delta L, all of whose entries have
 // the unit of force, so that no characteristic length is needed; and the factor itself is as accurate whatever the
 // units, since scaling rows and columns of K scales those of L. Eigenvalues are real without being made so, three
@@ -22,11 +22,11 @@
 namespace live_stiffness {
 
 struct Eigenscrew {
-  double eigenvalue = 0.0;              // of K Delta: eigenstiffness, N; of C Delta: eigencompliance, 1/N
+  double eigenvalue = 0.0;              // eta, eigenstiffness, N
   double pitch = 0.0;                   // h, m/rad; its sign is that of the eigenvalue
   Vector3 point = Vector3::Zero();  // of the axis, the one nearest to the point that the matrix is about; from there, m
   Vector3 direction = Vector3::Zero();  // n, unit vector; the sign means nothing: its largest component is positive
-  double coefficient = 0.0;             // of K: k, N/m; of C: that of t t^T, rad/(N m)
+  double coefficient = 0.0;             // k, N/m
 };
 
 struct EigenscrewDecomposition {
@@ -39,13 +39,8 @@ struct EigenscrewDecomposition {
   std::array<Eigenscrew, 6> screws;
 };
 
-// Matrix about any point, any axes.
+// K about any point, any axes.
 EigenscrewDecomposition eigenscrewsOfStiffness(const Matrix6& K);
-EigenscrewDecomposition eigenscrewsOfCompliance(const Matrix6& C);
-
-// The (symmetric) matrix again, as a sum over the screws.
-Matrix6 stiffnessFromScrews(const EigenscrewDecomposition& decomposition);
-Matrix6 complianceFromScrews(const EigenscrewDecomposition& decomposition);
 
 // Eigenstiffnesses alone, from a compliance, in the order of the screws of K, N. Quicker. All zero unless definite.
 struct Eigenstiffnesses {

@@ -1,10 +1,10 @@
 #pragma once
-// One number for the stiffness of a configuration, and the augmented position p_w = [x, y, z, tau] (22).
+// One number for the stiffness of a configuration: the tau of the augmented position p_w = [x, y, z, tau] (22).
 
 #include <string>
 
 #include "live_stiffness/checks.h"
-#include "live_stiffness/lie/se3.h"
+#include "live_stiffness/conventions.h"
 
 namespace live_stiffness {
 
@@ -34,12 +34,5 @@ StiffnessCriterion criterionNamed(const std::string& text, FaultList& faults);
 
 // A direction as x, y, z, optionally with a sign, or dx,dy,dz; `name` is for the fault. Unit vector.
 Vector3 directionNamed(const std::string& name, const std::string& text, FaultList& faults);
-
-// Position with a criterion of stiffness attached, (22).
-struct AugmentedPosition {
-  Vector3 position = Vector3::Zero();  // of T in B, m
-  double tau = 0.0;                    // in the unit of the criterion
-};
-AugmentedPosition augmentedPosition(const Pose& X_BT, const Matrix6& C, const StiffnessCriterion& criterion);
 
 }  // namespace live_stiffness

@@ -1,5 +1,5 @@
 #pragma once
-// Stiffness from compliance, and both about any point and in any axes (17), (18).
+// Stiffness from compliance (17), about any point and in any axes; of compliances se3.h has the same (18).
 
 #include "live_stiffness/lie/se3.h"
 
@@ -24,11 +24,6 @@ Matrix6 shiftStiffness(const Matrix6& K, const Vector3& offset);
 
 // K in base axes becomes K in axes of the body with orientation R, same point.
 Matrix6 stiffnessInBodyAxes(const Matrix6& K, const Matrix3& R);
-
-// C about the origin of O in axes of O becomes C about the origin of F in axes of F: (18), Ad^T C Ad. For the body
-// frame of the tip with C_T_B, about T in base axes: X_OF = {R_BT, 0}.
-Matrix6 complianceInFrame(const Matrix6& C, const Pose& X_OF);
-Matrix6 stiffnessInFrame(const Matrix6& K, const Pose& X_OF);
 
 // How unsymmetric a compliance or stiffness matrix is: norm of the antisymmetric part over that of the symmetric, both
 // scaled by the matrix's own length; 0: symmetric. Not zero under a dead tip moment, which is not conservative.

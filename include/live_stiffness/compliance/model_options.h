@@ -4,8 +4,7 @@
 #include <string>
 
 #include "live_stiffness/checks.h"
-#include "rod/element_passes.h"
-#include "live_stiffness/section/load_stepping.h"
+#include "live_stiffness/section/stepping.h"
 
 namespace live_stiffness {
 
@@ -21,8 +20,6 @@ struct ModelOptions {
   Stepping stepping = Stepping::kFixedStep;
   double pressure_step = 15000.0;  // largest step of kFixedStep, Pa
   double accuracy = 1e-9;          // relative, of pose and compliance, by which stages and elements are chosen; 1e-13 to 1e-2
-  int stages = 0;                  // Gauss nodes of every element, 2 to 7; 0: whatever is cheapest for the accuracy
-  Simd simd = Simd::kBest;         // both give the same to rounding
 };
 
 // Options from their names. model: lpcc, npcc, lcm, ncm or empty (external loads act); stepping: fixed_step,

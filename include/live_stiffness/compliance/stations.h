@@ -1,10 +1,10 @@
 #pragma once
-// Stations: sections of a solved backbone, with what is known there. Read from the collocation polynomials where these
-// are accurate enough, else integrated anew from the start of the element.
+// Stations: sections of a solved backbone, with what is known there.
 
+#include <memory>
 #include <vector>
 
-#include "rod/backbone.h"
+#include "live_stiffness/lie/se3.h"
 
 namespace live_stiffness {
 
@@ -16,38 +16,23 @@ struct Station {
   Matrix6 compliance = Matrix6::Zero();
 };
 
-// How stations are read from a backbone; its material compliance must be there (material_compliance.h).
-struct StationReading {
-  double accuracy;  // relative
-  bool loaded;      // something external acts
-};
+class StationBatches;  // of the library, see src/compliance/station_reader.h
 
-// One station. segment: from 0; fraction: of its length; below 0, or NaN, is its base, above 1 its end.
-Station stationAt(const Backbone& backbone, int segment, double fraction, const StationReading& reading);
-
-// Stations at fixed fractions of a segment, in any order. It remembers which elements they are in and their weights
-// there, which takes as long to find as to read them: keep one for each segment.
+// Stations at fixed fractions of a segment, in any order; see StiffnessModel::stations(). It remembers which elements
+// they are in and their weights there, which takes as long to find as to read them: keep one for each segment.
 class StationPlan {
  public:
-  explicit StationPlan(std::vector<double> fractions);  // as of stationAt()
+  // 0 to 1; below 0, or NaN, is the segment's base, above 1 its end.
+  explicit StationPlan(std::vector<double> fractions);
+  StationPlan(const StationPlan& other);
+  StationPlan(StationPlan&&) noexcept;
+  ~StationPlan();
 
-  int size() const { return static_cast<int>(fractions_.size()); }
-  // out: size() of them. Never allocates.
-  void read(const Backbone& backbone, int segment, const StationReading& reading, Station* out);
+  int size() const;
 
  private:
-  // Some that are in one element, and which they are.
-  struct Batch {
-    int element;
-    int station[kStationBatch];
-    StationBatch sections;
-  };
-  void spreadOver(int element_count);
-
-  std::vector<double> fractions_;
-  std::vector<Batch> batches_;
-  std::vector<int> ends_;  // stations at the end of the segment
-  int element_count_ = 0;
+  friend class StiffnessModel;
+  std::unique_ptr<StationBatches> batches_;
 };
 
 }  // namespace live_stiffness

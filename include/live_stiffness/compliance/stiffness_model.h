@@ -3,14 +3,20 @@
 // 6x6 compliance out. A scene without weight and without a tip wrench takes the closed form; the boundary value solver
 // is touched only when something external acts.
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "live_stiffness/compliance/model_options.h"
 #include "live_stiffness/compliance/stations.h"
-#include "rod/statics.h"
+#include "live_stiffness/rod/scene.h"
 
 namespace live_stiffness {
+
+struct Backbone;      // the solved shape, and
+class StaticsSolver;  // the solver of the library, see src/rod
+template <class T>
+class LoadStepperOf;
 
 enum class SolveCode {
   kOk = 0,
@@ -55,24 +61,22 @@ struct StiffnessSolution {
 // Everything a solve writes to; one per thread, reused. Tied to the model it was made by.
 class StiffnessWorkspace {
  public:
-  const Backbone& backbone() const { return backbone_; }
+  struct State;  // of the library, see src/compliance/stiffness_workspace.h
+  explicit StiffnessWorkspace(std::unique_ptr<State> state);
+  StiffnessWorkspace(StiffnessWorkspace&&) noexcept;
+  StiffnessWorkspace& operator=(StiffnessWorkspace&&) noexcept;
+  ~StiffnessWorkspace();
+
+  const Backbone& backbone() const;
+  const StaticsSolver& statics() const;
   // True if the last solve was a boundary value problem, false if it took the closed form.
-  bool loaded() const { return loaded_; }
-  // Number of boundary value problems solved so far.
-  long staticsSolves() const { return statics_solves_; }
-  const StaticsSolver& statics() const { return statics_; }
+  bool loaded() const;
   // Forgets the last solution, so that the next solve starts cold.
-  void reset() { statics_.reset(); }
+  void reset();
 
  private:
   friend class StiffnessModel;
-  StiffnessWorkspace(const Scene& scene, const ModelOptions& options)
-      : backbone_(scene, options.simd), statics_(scene, options.accuracy, options.stages) {}
-
-  Backbone backbone_;
-  StaticsSolver statics_;
-  bool loaded_ = false;
-  long statics_solves_ = 0;
+  std::unique_ptr<State> state_;
 };
 
 // Immutable; share it between threads, one workspace each. Must outlive its workspaces.
@@ -80,12 +84,13 @@ class StiffnessModel {
  public:
   // Throws ConfigurationError on bad options or a scene without segments.
   StiffnessModel(Scene scene, ModelOptions options);
+  ~StiffnessModel();
   StiffnessModel(const StiffnessModel&) = delete;  // workspaces refer to its scene
   StiffnessModel& operator=(const StiffnessModel&) = delete;
 
   const Scene& scene() const { return scene_; }
   const ModelOptions& options() const { return options_; }
-  StiffnessWorkspace makeWorkspace() const { return {scene_, options_}; }
+  StiffnessWorkspace makeWorkspace() const;
 
   // Solves for gauge pressures (Pa, one per chamber, base to tip; at least -1 atm) and a dead wrench at T (base axes).
   // Never throws and never allocates; a failure is a status.
@@ -109,7 +114,7 @@ class StiffnessModel {
   ModelOptions options_;
   int chamber_count_;
   bool has_weight_;
-  std::vector<LoadStepper> steppers_;  // one per segment
+  std::vector<LoadStepperOf<double>> steppers_;  // one per segment
 };
 
 }  // namespace live_stiffness

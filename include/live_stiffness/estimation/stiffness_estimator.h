@@ -1,14 +1,16 @@
 #pragma once
 // Live estimation: decides when to re-solve, and keeps the last good estimate when a solve fails.
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "live_stiffness/analysis/ellipsoid.h"
 #include "live_stiffness/compliance/stiffness_model.h"
-#include "live_stiffness/estimation/scene_creep.h"
 
 namespace live_stiffness {
+
+class SceneCreep;
 
 struct EstimatorOptions {
   double update_threshold = 1000.0;  // re-solve when the 2-norm of the change of pressure exceeds it (13), Pa
@@ -42,6 +44,7 @@ class StiffnessEstimator {
   // Throws ConfigurationError on bad options or scene. Solves once at rest, so that the first estimate does not have to wait
   // for memory and code that were never touched.
   StiffnessEstimator(Scene scene, const ModelOptions& model_options, EstimatorOptions options);
+  ~StiffnessEstimator();
 
   // New pressures at `time` (s): solves if what they come to after creep moved by more than the threshold since the last
   // solve, or if there was none. The first ones count as having been there for long.
@@ -72,7 +75,7 @@ class StiffnessEstimator {
   EstimatorOptions options_;
   StiffnessWorkspace workspace_;
   std::vector<StationPlan> plans_, shape_plans_;  // one per segment
-  SceneCreep creep_;
+  std::unique_ptr<SceneCreep> creep_;
   Pressures newest_pressures_, newest_effective_, solved_effective_;
   Wrench newest_wrench_ = Wrench::Zero(), solved_wrench_ = Wrench::Zero();
   SolveStatus status_;

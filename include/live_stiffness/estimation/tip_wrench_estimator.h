@@ -5,14 +5,18 @@
 //   measured X_BT = (p + b_v, exp(b_w) R),   (R, p) the model's equilibrium under pressures, W and known wrench,
 // whose derivative by W is the tangent compliance at the loaded equilibrium; iterated, so that large deflections are
 // not linearised (Bell and Cathey, "The iterated Kalman filter update as a Gauss-Newton method", IEEE TAC 1993).
-// Creep is taken from the scene (estimation/creep.h); what it leaves is model error. See docs/estimation.md.
+// Creep is taken from the scene; what it leaves is model error. See docs/estimation.md.
 
+#include <memory>
 #include <string>
 
-#include "live_stiffness/estimation/creep.h"
-#include "estimation/tip_wrench_filter.h"
+#include "live_stiffness/compliance/stiffness_model.h"
+#include "live_stiffness/estimation/tip_wrench_options.h"
 
 namespace live_stiffness {
+
+class SceneCreep;
+class TipWrenchFilter;
 
 struct TipWrenchEstimate {
   double time = 0.0;                      // s, of the sample
@@ -43,13 +47,12 @@ const char* codeName(TipWrenchCode code);  // "ok", "invalid_input", "time_backw
 
 class TipWrenchEstimator {
  public:
-  static constexpr int kMaxIterations = TipWrenchFilter::kMaxIterations;
+  static constexpr int kMaxIterations = 8;  // of a measurement update
   static constexpr double kRestartAfter = 1.0;  // s
 
   // Throws ConfigurationError (all faults) on bad options or scene. Creep is that of the first segment.
   TipWrenchEstimator(const Scene& scene, const ModelOptions& model_options, const TipWrenchOptions& options);
-  TipWrenchEstimator(const TipWrenchEstimator&) = delete;  // its filter refers to its options
-  TipWrenchEstimator& operator=(const TipWrenchEstimator&) = delete;
+  ~TipWrenchEstimator();
 
   // A sample: gauge pressures (Pa, one per chamber), measured tip pose (m; through the registration) and time (s,
   // increasing). True if estimate() is of this sample, outliers included; else see code(). Never throws. Bounded work:
@@ -65,22 +68,22 @@ class TipWrenchEstimator {
 
   // The last good estimate; nullptr before the first.
   const TipWrenchEstimate* estimate() const { return has_estimate_ ? &estimate_ : nullptr; }
-  TipWrenchCode code() const { return code_; }                       // of the newest call
-  const SolveStatus& status() const { return status_; }              // of the newest solve
-  std::string statusText() const;                                    // "" when ok, else the reason and the way out
-  const StiffnessModel& model() const { return filter_.model(); }    // at the current scale
+  TipWrenchCode code() const { return code_; }           // of the newest call
+  const SolveStatus& status() const { return status_; }  // of the newest solve
+  std::string statusText() const;                        // "" when ok, else the reason and the way out
+  const StiffnessModel& model() const;                   // at the current scale
 
  private:
   bool accept(PressuresRef pressures, double time);
   bool step(PressuresRef pressures, const Pose* measured, double time);
   bool isOutlier(const Pose& measured, double innovation);
-  bool fail(const TipWrenchFilter::Belief& prior);
+  bool fail();
   void updateContact(double elapsed);
   void publish(const StiffnessSolution& solution, double time);
 
   const TipWrenchOptions options_;
-  TipWrenchFilter filter_;
-  CreepFilter creep_;
+  const std::unique_ptr<TipWrenchFilter> filter_;  // refers to the options
+  const std::unique_ptr<SceneCreep> creep_;
   ContactDetector contact_;
   Wrench known_ = Wrench::Zero();
   Pressures pressures_;              // of the last sample, as given, Pa

@@ -2,11 +2,16 @@
 // Options of the tip wrench estimator, in physical units. docs/estimation.md says how to set them.
 
 #include "live_stiffness/checks.h"
-#include "live_stiffness/compliance/model_options.h"
+#include "live_stiffness/conventions.h"
 #include "live_stiffness/estimation/contact_detector.h"
-#include "estimation/tip_force.h"
 
 namespace live_stiffness {
+
+// Standard deviations of a tracker's poses: position per axis, m; rotation per axis, rad.
+struct TrackerNoise {
+  double position = 2e-3;
+  double rotation = 0.5;
+};
 
 // Standard deviations unless stated. Positions and forces are per axis. Legal ranges in the comments.
 struct TipWrenchOptions {
@@ -15,7 +20,7 @@ struct TipWrenchOptions {
   // White, per sample, of the tracker and of what the model does not follow from one sample to the next: a silicone arm
   // in motion is some millimetres from its model, and its tip turns about its own axis in ways that none describes (5
   // to 13 deg on recordings), so that by default rotation hardly counts. With 6 components it must: lower it.
-  TrackerNoise tracker{2e-3, 0.5};  // position 1e-6 to 0.1 m, rotation 1e-5 to 1 rad
+  TrackerNoise tracker;  // position 1e-6 to 0.1 m, rotation 1e-5 to 1 rad
 
   // The wrench, a Gauss-Markov process. Without contact it is small and soon forgotten, so that what lasts counts as
   // model error; under contact it walks freely up to the size that can be expected.

@@ -20,6 +20,9 @@ struct Pose {
 // exp(s [v; u]); with v = e3 this is the circular arc (43).
 Pose expSe3(const Vector3& v, const Vector3& u, double s, double series_below = kSeriesBelowAngle);
 
+// Twist [v; w] of T (base axes) that takes a predicted pose to the measured one: [p_m - p; log(R_m R^T)], m and rad.
+Twist residualTwist(const Pose& measured_X_BT, const Pose& predicted_X_BT);
+
 // Adjoint Ad_AB (47): takes a wrench of frame B to frame A, [f; m]_A = Ad_AB [f; m]_B.
 Matrix6 wrenchAdjoint(const Pose& X_AB);
 

@@ -3,16 +3,16 @@
 // and 6x6 compliance out; and the inverse, platform pose in and rod lengths out.
 
 #include <memory>
+#include <string>
+#include <vector>
 
-#include "compliance/material_compliance.h"
 #include "live_stiffness/compliance/stiffness_model.h"
-#include "parallel/parallel_statics.h"
+#include "live_stiffness/parallel/parallel_scene.h"
 
 namespace live_stiffness {
 
 struct ParallelOptions {
-  double accuracy = 1e-9;    // relative, of pose and compliance; 1e-13 to 1e-2
-  Simd simd = Simd::kBest;   // both give the same to rounding
+  double accuracy = 1e-9;  // relative, of pose and compliance; 1e-13 to 1e-2
 };
 
 struct ParallelSolution {
@@ -24,19 +24,23 @@ struct ParallelSolution {
   Matrix6 material_compliance = Matrix6::Zero();  // about P by (53): inverse of the sum of the rods' tip stiffnesses
 };
 
+class ParallelStatics;  // the solver of the library, see src/parallel
+
 // Everything a solve writes to; one per thread, reused. Tied to the model it was made by.
 class ParallelWorkspace {
  public:
-  // Rods of the last solve: shape, length, wrenches.
-  const std::deque<HeldRod>& rods() const { return statics_->coupling().rods(); }
+  explicit ParallelWorkspace(std::unique_ptr<ParallelStatics> statics);
+  ParallelWorkspace(ParallelWorkspace&&) noexcept;
+  ~ParallelWorkspace();
+
+  // Lengths of the rods between base and platform in the last solve, m.
+  std::vector<double> lengths() const;
+  const ParallelStatics& statics() const { return *statics_; }
   // Forgets the last solution, so that the next solve starts cold.
-  void reset() { statics_->reset(); }
+  void reset();
 
  private:
   friend class ParallelModel;
-  ParallelWorkspace(const ParallelScene& scene, const ParallelOptions& options)
-      : statics_(std::make_unique<ParallelStatics>(scene, options.accuracy, options.simd)) {}
-
   std::unique_ptr<ParallelStatics> statics_;
 };
 
@@ -50,13 +54,13 @@ class ParallelModel {
 
   const ParallelScene& scene() const { return scene_; }
   const ParallelOptions& options() const { return options_; }
-  ParallelWorkspace makeWorkspace() const { return {scene_, options_}; }
+  ParallelWorkspace makeWorkspace() const;
 
   // Solves for rod lengths (m, one a rod, in the order of the scene) and a dead wrench at P (base axes) beside the
   // platform's weight. Never throws and never allocates; a failure is a status.
   ParallelSolution solve(const std::vector<double>& lengths, const Wrench& wrench, ParallelWorkspace& workspace) const;
 
-  // The lengths that hold the platform at X_BP under the wrench: they are those of the workspace's rods afterwards.
+  // The lengths that hold the platform at X_BP under the wrench: those of the workspace afterwards.
   // For six rods; kInvalidInput for another number.
   ParallelSolution solveForLengths(const Pose& X_BP, const Wrench& wrench, ParallelWorkspace& workspace) const;
 
@@ -69,8 +73,6 @@ class ParallelModel {
   std::string describe(const SolveStatus& status) const;
 
  private:
-  void complete(const ParallelReport& report, ParallelWorkspace& workspace, ParallelSolution& solution) const;
-
   ParallelScene scene_;
   ParallelOptions options_;
 };

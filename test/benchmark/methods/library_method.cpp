@@ -5,8 +5,10 @@
 
 namespace live_stiffness {
 
-LibraryMethod::LibraryMethod(std::string name, const Scene& scene, const ModelOptions& options, int stations)
-    : StiffnessMethod(std::move(name)), model_(scene, options), workspace_(model_.makeWorkspace()),
+LibraryMethod::LibraryMethod(std::string name, const Scene& scene, const ModelOptions& options, int stations,
+                             int stages, Simd simd)
+    : StiffnessMethod(std::move(name)), model_(scene, options),
+      workspace_(std::make_unique<StiffnessWorkspace::State>(model_.scene(), options.accuracy, stages, simd)),
       stations_(scene.segmentCount()) {
   const int segments = scene.segmentCount();
   std::vector<std::vector<double>> fractions(segments);

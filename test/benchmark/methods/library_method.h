@@ -2,7 +2,7 @@
 // The library's own solver, with material compliance at stations spread evenly over the soft segments.
 
 #include "benchmark/methods/stiffness_method.h"
-#include "live_stiffness/compliance/stiffness_model.h"
+#include "compliance/stiffness_workspace.h"
 
 namespace live_stiffness {
 
@@ -10,7 +10,9 @@ class LibraryMethod : public StiffnessMethod {
  public:
   static constexpr int kStations = 5;
 
-  LibraryMethod(std::string name, const Scene& scene, const ModelOptions& options, int stations = kStations);
+  // stages and simd: as of StiffnessWorkspace::State.
+  LibraryMethod(std::string name, const Scene& scene, const ModelOptions& options, int stations = kStations,
+                int stages = 0, Simd simd = Simd::kBest);
 
   StiffnessSolution solve(PressuresRef pressures) override;
   void reset() override { workspace_.reset(); }

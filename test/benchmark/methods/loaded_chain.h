@@ -8,6 +8,7 @@
 #include "live_stiffness/compliance/model_options.h"
 #include "live_stiffness/lie/se3.h"
 #include "live_stiffness/rod/scene.h"
+#include "section/load_stepping.h"
 
 namespace live_stiffness {
 

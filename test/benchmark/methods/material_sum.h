@@ -3,6 +3,7 @@
 
 #include "live_stiffness/lie/se3.h"
 #include "live_stiffness/section/cross_section.h"
+#include "section/section_moments.h"
 
 namespace live_stiffness {
 

@@ -18,17 +18,19 @@ auto maker(int resolution) {
 }
 
 MethodEntry library(const std::string& family, const std::string& variant, double resolution,
-                    const ModelOptions& options) {
+                    double accuracy, int stages, Simd simd) {
+  ModelOptions options;
+  options.accuracy = accuracy;
   return {family, variant, resolution, [=](const Scene& scene) -> std::unique_ptr<StiffnessMethod> {
-            return std::make_unique<LibraryMethod>(family + ", " + variant, scene, options);
+            return std::make_unique<LibraryMethod>(family + ", " + variant, scene, options, LibraryMethod::kStations,
+                                                   stages, simd);
           }};
 }
 
 }  // namespace
 
 double accuracyOfStages(int stages) {
-  constexpr double kAccuracy[] = {1e-3, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10};  // of 2 to 7 stages
-  return kAccuracy[stages - kMinStages];
+  return stages == 3 ? 1e-3 : stages == 5 ? 1e-6 : 1e-10;
 }
 
 std::vector<MethodEntry> methodList() {
@@ -48,20 +50,13 @@ std::vector<MethodEntry> methodList() {
     list.push_back({"Magnus 4", std::to_string(elements) + " el.", double(elements), maker<Magnus<2>>(elements)});
   for (int elements : {1, 2, 4, 8})
     list.push_back({"Magnus 6", std::to_string(elements) + " el.", double(elements), maker<Magnus<3>>(elements)});
-  for (int stages = kMinStages; stages <= kMaxStages; ++stages) {
-    ModelOptions options;
-    options.stages = stages;
-    options.accuracy = accuracyOfStages(stages);
-    list.push_back(library("library by stages", std::to_string(stages) + " stages", stages, options));
-  }
+  for (int stages : kStageCounts)
+    list.push_back(library("library by stages", std::to_string(stages) + " stages", stages, accuracyOfStages(stages),
+                           stages, Simd::kBest));
   for (const auto simd : {Simd::kBest, Simd::kBaseline})
-    for (double accuracy : {1e-3, 1e-6, 1e-9}) {
-      ModelOptions options;
-      options.accuracy = accuracy;
-      options.simd = simd;
+    for (double accuracy : {1e-3, 1e-6, 1e-9})
       list.push_back(library(simd == Simd::kBest ? "library" : "library (plain x86-64)",
-                             "accuracy " + numberText(accuracy), accuracy, options));
-    }
+                             "accuracy " + numberText(accuracy), accuracy, accuracy, 0, simd));
   return list;
 }
 
