@@ -1,9 +1,9 @@
 #include "live_stiffness/analysis/eigenscrews.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "lie/matrix6.h"
 #include "live_stiffness/analysis/elastic_centre.h"
 #include "live_stiffness/analysis/stiffness_matrix.h"
 
@@ -34,15 +34,15 @@ EigenscrewDecomposition eigenscrewsOfStiffness(const Matrix6& K) {
   Matrix6 L;
   if (!centre.exists || !factorise(centre.matrix, L)) return result;
   result.asymmetry = asymmetryOf(K);
-  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(overDelta(L));
-  const Matrix6 vectors = L * solver.eigenvectors();
+  const SymmetricEigen eigen = eigenOfSymmetric(overDelta(L));
+  const Matrix6 vectors = L * eigen.vectors;
   for (int i = 0; i < 6; ++i) {
     const Vector6 column = vectors.col(kOrder[i]);  // a screw [n; m]
     const Vector3 along = linear(column), about = angular(column);
     const double size = along.norm();
     if (!(size > 0.0) || !std::isfinite(1.0 / size)) return result;
     Eigenscrew& screw = result.screws[i];
-    screw.eigenvalue = solver.eigenvalues()[kOrder[i]];
+    screw.eigenvalue = eigen.values[kOrder[i]];
     screw.coefficient = size * size;
     screw.direction = along / size;
     Eigen::Index largest;
@@ -62,8 +62,7 @@ Eigenstiffnesses eigenstiffnessesOfCompliance(const Matrix6& C) {
   Eigenstiffnesses result;
   Matrix6 L;
   if (!factorise(0.5 * C + 0.5 * C.transpose(), L)) return result;
-  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(overDelta(L), Eigen::EigenvaluesOnly);
-  const Vector6& compliances = solver.eigenvalues();  // ascending: three negative, three positive
+  const Vector6 compliances = eigenOfSymmetric(overDelta(L)).values;  // ascending: three negative, three positive
   if (!(compliances[2] < 0.0) || !(compliances[3] > 0.0)) return result;
   result.definite = true;
   constexpr int kLargestFirst[6] = {3, 4, 5, 2, 1, 0};  // the smallest compliance is the largest stiffness

@@ -3,6 +3,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "lie/matrix6.h"
+
 namespace live_stiffness {
 namespace {
 
@@ -33,7 +35,7 @@ HoldGoal before(const HoldGoal& goal, const Twist& rest) {
 Wrench wrenchFor(const Twist& motion, const Matrix6& C, bool pure_force) {
   Wrench wrench = Wrench::Zero();
   if (pure_force) linear(wrench) = C.topLeftCorner<3, 3>().partialPivLu().solve(linear(motion));
-  else wrench = C.partialPivLu().solve(motion);
+  else wrench = solve(C, motion);
   return wrench;
 }
 

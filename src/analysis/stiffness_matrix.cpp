@@ -1,7 +1,8 @@
 #include "live_stiffness/analysis/stiffness_matrix.h"
 
-#include <Eigen/LU>
 #include <cmath>
+
+#include "lie/matrix6.h"
 
 namespace live_stiffness {
 namespace {
@@ -32,7 +33,7 @@ StiffnessMatrix stiffnessOf(const Matrix6& C) {
   const double size = C.topLeftCorner<3, 3>().trace();
   if (!(size > 0.0)) return result;
   const Matrix6 scaled = withAngularScaled(C, result.length) / size;
-  const Matrix6 inverse = scaled.partialPivLu().inverse();
+  const Matrix6 inverse = inverseOf(scaled);
   const double condition = oneNorm(scaled) * oneNorm(inverse);
   if (std::isfinite(condition)) result.condition = condition;
   result.invertible = result.condition <= kLargestCondition;

@@ -1,10 +1,10 @@
 #include "live_stiffness/estimation/registration_fit.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
+#include "lie/matrix6.h"
 #include "live_stiffness/checks.h"
 
 namespace live_stiffness {
@@ -111,12 +111,12 @@ Fit descend(const CentredProblem& problem, const Matrix3& start) {
     Matrix6 normal;
     Vector6 gradient;
     problem.linearize(best.R_AB, best.offset, normal, gradient);
-    const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(normal);
+    const SymmetricEigen eigen = eigenOfSymmetric(normal);
     Vector6 step = Vector6::Zero();
     for (int k = 0; k < 6; ++k) {
-      const double value = eigen.eigenvalues()[k];
+      const double value = eigen.values[k];
       if (value < kWeakSensitivity * kWeakSensitivity) continue;
-      step -= eigen.eigenvectors().col(k) * (eigen.eigenvectors().col(k).dot(gradient) / value);
+      step -= eigen.vectors.col(k) * (eigen.vectors.col(k).dot(gradient) / value);
     }
     bool better = false;
     for (double factor = 1.0; factor > 1e-3 && !better; factor *= 0.5) {
@@ -136,14 +136,14 @@ void markUndetermined(const CentredProblem& problem, const Fit& estimate, Regist
   Matrix6 normal;
   Vector6 gradient;
   problem.linearize(estimate.R_AB, estimate.offset, normal, gradient);
-  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(normal);
+  const SymmetricEigen eigen = eigenOfSymmetric(normal);
   constexpr double kTakesPart = 0.1;  // smallest component of an undetermined direction that is reported
-  fit.weakest_sensitivity = std::sqrt(std::max(eigen.eigenvalues()[0], 0.0));
+  fit.weakest_sensitivity = std::sqrt(std::max(eigen.values[0], 0.0));
   fit.base_rotation_determined = fit.sensor_offset_determined = true;
   for (int k = 0; k < 6; ++k) {
-    if (eigen.eigenvalues()[k] >= kWeakSensitivity * kWeakSensitivity) continue;
-    if (eigen.eigenvectors().col(k).head<3>().norm() > kTakesPart) fit.base_rotation_determined = false;
-    if (eigen.eigenvectors().col(k).tail<3>().norm() > kTakesPart) fit.sensor_offset_determined = false;
+    if (eigen.values[k] >= kWeakSensitivity * kWeakSensitivity) continue;
+    if (eigen.vectors.col(k).head<3>().norm() > kTakesPart) fit.base_rotation_determined = false;
+    if (eigen.vectors.col(k).tail<3>().norm() > kTakesPart) fit.sensor_offset_determined = false;
   }
 }
 

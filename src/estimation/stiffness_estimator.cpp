@@ -1,10 +1,10 @@
 #include "live_stiffness/estimation/stiffness_estimator.h"
 
-#include <Eigen/LU>
 #include <chrono>
 #include <cmath>
 
 #include "estimation/scene_creep.h"
+#include "lie/matrix6.h"
 #include "rod/backbone.h"
 
 namespace live_stiffness {
@@ -83,7 +83,7 @@ StiffnessEstimator::Outcome StiffnessEstimator::solve() {
   candidate_.solution = model_.solve(newest_effective_, newest_wrench_, workspace_);
   status_ = candidate_.solution.status;
   if (!status_.ok()) return Outcome::kFailed;
-  candidate_.stiffness = candidate_.solution.compliance.inverse();
+  candidate_.stiffness = inverseOf(candidate_.solution.compliance);
   if (!candidate_.stiffness.allFinite()) {
     status_ = {SolveCode::kNotConverged, -1, 0.0};
     return Outcome::kFailed;

@@ -137,7 +137,8 @@ bool TipWrenchFilter::correct(const Pose& measured, const Belief& prior, bool le
     if (result.iterations == 1) {
       Matrix6 plain = S;
       plain.diagonal() += noise;
-      result.innovation = std::sqrt(predicted.dot(plain.llt().solve(predicted)));
+      const Vector6 weighted = plain.llt().solve(predicted);
+      result.innovation = std::sqrt(predicted.dot(weighted));
       weight = std::max(1.0, result.innovation / options_.robust_from);
     }
     S.diagonal() += weight * noise;

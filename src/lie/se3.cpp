@@ -2,6 +2,12 @@
 
 namespace live_stiffness {
 
+Pose Pose::operator*(const Pose& X_BC) const { return {R * X_BC.R, p + R * X_BC.p}; }
+
+Vector3 Pose::operator*(const Vector3& p_B) const { return p + R * p_B; }
+
+Pose Pose::inverse() const { return {R.transpose(), -(R.transpose() * p)}; }
+
 Pose expSe3(const Vector3& v, const Vector3& u, double s, double series_below) {
   const Vector3 w = s * u;
   const double x = w.squaredNorm();

@@ -1,7 +1,8 @@
 #include "parallel/parallel_estimator.h"
 
-#include <Eigen/LU>
 #include <chrono>
+
+#include "lie/matrix6.h"
 
 namespace live_stiffness {
 
@@ -29,7 +30,7 @@ bool ParallelEstimator::solve() {
   candidate_.solve_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   status_ = candidate_.solution.status;
   if (!status_.ok()) return false;
-  candidate_.stiffness = candidate_.solution.compliance.inverse();
+  candidate_.stiffness = inverseOf(candidate_.solution.compliance);
   if (!candidate_.stiffness.allFinite()) {
     status_ = {SolveCode::kNotConverged, -1, 0.0};
     return false;

@@ -11,9 +11,9 @@ struct Pose {
   Matrix3 R = Matrix3::Identity();
   Vector3 p = Vector3::Zero();
 
-  Pose operator*(const Pose& X_BC) const { return {R * X_BC.R, p + R * X_BC.p}; }
-  Vector3 operator*(const Vector3& p_B) const { return p + R * p_B; }
-  Pose inverse() const { return {R.transpose(), -(R.transpose() * p)}; }
+  Pose operator*(const Pose& X_BC) const;
+  Vector3 operator*(const Vector3& p_B) const;
+  Pose inverse() const;
 };
 
 // Pose after the arc length s (m) along a constant strain: linear v (-), angular u (1/m), in body axes.

@@ -11,25 +11,10 @@
 namespace live_stiffness {
 
 // Skew matrix: hat(x) y = x cross y. Shi et al. (45).
-inline Matrix3 hat(const Vector3& x) {
-  Matrix3 x_hat;
-  x_hat << 0.0, -x.z(), x.y(), x.z(), 0.0, -x.x(), -x.y(), x.x(), 0.0;
-  return x_hat;
-}
+Matrix3 hat(const Vector3& x);
 
 // Rotation matrix of the rotation vector w (rad): I + a hat(w) + b hat(w)^2.
-inline Matrix3 expSo3(const Vector3& w, double series_below = kSeriesBelowAngle) {
-  const double x = w.squaredNorm();
-  const Vector3 aw = angleA(x, series_below) * w;
-  const Vector3 bw = angleB(x, series_below) * w;
-  const double bxx = bw.x() * w.x(), byy = bw.y() * w.y(), bzz = bw.z() * w.z();
-  const double bxy = bw.x() * w.y(), bxz = bw.x() * w.z(), byz = bw.y() * w.z();
-  Matrix3 R;
-  R << 1.0 - byy - bzz, bxy - aw.z(), bxz + aw.y(),
-       bxy + aw.z(), 1.0 - bxx - bzz, byz - aw.x(),
-       bxz - aw.y(), byz + aw.x(), 1.0 - bxx - byy;
-  return R;
-}
+Matrix3 expSo3(const Vector3& w, double series_below = kSeriesBelowAngle);
 
 // Rotation vector (rad, length <= pi) of R. At exactly pi the sign of the axis is arbitrary. linear_below: sine of half
 // the angle below which the arc tangent is its argument.
@@ -40,11 +25,8 @@ Matrix3 leftJacobianSo3(const Vector3& w, double series_below = kSeriesBelowAngl
 
 // With R(s) = R0 exp(hat(w(s))) and R' = R hat(u): the rate w' = (I + hat(w)/2 + d hat(w)^2) u, the inverse right
 // Jacobian applied to u. Singular at |w| = 2 pi, so keep elements well below.
-inline Vector3 bodyRateToVectorRate(const Vector3& w, const Vector3& u,
-                                    double series_below = kPoleSeriesBelowAngle) {
-  const Vector3 w_cross_u = w.cross(u);
-  return u + 0.5 * w_cross_u + angleD(w.squaredNorm(), series_below) * w.cross(w_cross_u);
-}
+Vector3 bodyRateToVectorRate(const Vector3& w, const Vector3& u,
+                                    double series_below = kPoleSeriesBelowAngle);
 
 // The rotation next to a product of many rotations: one Newton-Schulz step R (3 I - R^T R) / 2. The orthonormality error
 // e = |R^T R - I| becomes 3/4 e^2 plus rounding, so one step is enough for e < 1e-8.
@@ -52,9 +34,6 @@ inline Vector3 bodyRateToVectorRate(const Vector3& w, const Vector3& u,
 // Each product adds about 1e-16 to e: with random sign for different rotations (3e-12 after a million products), with the same
 // sign if one rotation is repeated (1e-10). In an endless chain apply this after every product, or after every ten for 1e-14.
 // The chain of a robot (some dozens of elements and links) does not need it, so Pose::operator* is a plain product.
-inline Matrix3 orthonormalised(const Matrix3& R) {
-  const Matrix3 defect = Matrix3::Identity() - R.transpose() * R;
-  return R + 0.5 * R * defect;
-}
+Matrix3 orthonormalised(const Matrix3& R);
 
 }  // namespace live_stiffness
