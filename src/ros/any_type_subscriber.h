@@ -5,6 +5,7 @@
 #include <ros/node_handle.h>
 #include <topic_tools/shape_shifter.h>
 
+#include <functional>
 #include <string>
 
 namespace live_stiffness {
@@ -25,7 +26,7 @@ class AnyTypeSubscriber {
                  void (Receiver::*callback)(const AnyMessage&), Receiver* receiver) {
     node_ = node;
     options_.initByFullCallbackType<const AnyMessage&>(topic, queue_size,
-                                                       [=](const AnyMessage& message) { (receiver->*callback)(message); });
+                                                       std::bind(callback, receiver, std::placeholders::_1));
     options_.transport_hints = ros::TransportHints().tcpNoDelay();
     subscriber_ = node_.subscribe(options_);
     timer_ = node_.createWallTimer(ros::WallDuration(1.0), &AnyTypeSubscriber::onTimer, this);

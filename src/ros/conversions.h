@@ -35,7 +35,7 @@ struct PressureFormat {
   bool absolute = false;
   double atmosphere = kAtmospherePa;  // subtracted from absolute ones, Pa
 
-  double gauge(double value) const { return value * unit - (absolute ? atmosphere : 0.0); }  // Pa
+  double gauge(double value) const;  // Pa
 };
 
 // Pa per unit for Pa, kPa, bar, mbar, psi; 0 for any other name.

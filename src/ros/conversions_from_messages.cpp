@@ -144,6 +144,8 @@ double pascalsPerUnit(const std::string& unit) {
   return 0.0;
 }
 
+double PressureFormat::gauge(double value) const { return value * unit - (absolute ? atmosphere : 0.0); }
+
 Parsed<Pressures> readPressures(const topic_tools::ShapeShifter& message, const PressureFormat& format) {
   Parsed<Pressures> pressures = readArray<ChamberPressures>(message);
   for (int k = 0; k < pressures.value.size() && pressures.ok(); ++k) {

@@ -13,7 +13,6 @@ using interactive_markers::MenuHandler;
 using visualization_msgs::InteractiveMarkerControl;
 using visualization_msgs::InteractiveMarkerFeedback;
 
-constexpr int kSections = 20;  // of the ghost, per segment
 constexpr char kOtherShape[] = "no ghost: the robot is in another stable shape than the one it takes from rest";
 
 const char* titleOf(TipHandle::Question question) {
@@ -213,7 +212,7 @@ Ghost TipHandle::answerDeflection(const Estimate& estimate) {
 }
 
 void TipHandle::addShape(Ghost& ghost) const {
-  for (const Station& station : sampleBackbone(solver_.model(), solver_.workspace(), kSections))
+  for (const Station& station : sampleBackbone(solver_.model(), solver_.workspace(), kShapeSections))
     ghost.shape.push_back(station.X_BS);
 }
 
