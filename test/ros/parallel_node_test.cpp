@@ -13,7 +13,9 @@
 #include <map>
 #include <set>
 
+#include "live_stiffness/PlatformEstimate.h"
 #include "live_stiffness/RodLengths.h"
+#include "live_stiffness/parallel/parallel_model.h"
 #include "live_stiffness/parallel/parallel_scene_file.h"
 #include "support/driven_node.h"
 
