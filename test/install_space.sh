@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs and runs from there: stiffness_solve, and the demo's launch file. BUILD_DIR
+# Installs and runs from there: stiffness_solve, examples/, and the demo's launch file. BUILD_DIR
 set -euo pipefail
 build=$1
 # catkin fixes the prefix when it configures, so it cannot be chosen here; scripts/build puts it inside the build.
@@ -21,6 +21,9 @@ rows=$(printf 'p_1_pa,p_2_pa,p_3_pa,p_4_pa,p_5_pa,p_6_pa\n6e4,6e4,0,0,0,0\n' |
   run "rosrun live_stiffness stiffness_solve '$scene'" | grep -c '^ok,')
 [ "$rows" = 1 ] || { echo "stiffness_solve of the install space solved $rows rows"; exit 1; }
 if run "ldd '$prefix/lib/live_stiffness/stiffness_node'" | grep "$build/devel"; then echo "it links the build space"; exit 1; fi
+if ! grep -q '^SANITIZER:STRING=.' "$build/CMakeCache.txt"; then  # an example would need the sanitizer's library, too
+  run "'$(realpath "$(dirname "$0")")/installed_example.sh' '$prefix'"
+fi
 
 port=11911
 while (: </dev/tcp/127.0.0.1/$port) 2>/dev/null; do port=$((port + 1)); done
