@@ -4,8 +4,9 @@
 // Units      SI (m, rad, N, N m, Pa, kg, s). A quantity in another unit carries the unit in its name.
 // Order      6-vectors are linear part first: twist [v; w], wrench [f; m]; Shi et al. (44), and geometry_msgs.
 // Frames     B base plate (z along the straight backbone towards the tip), Q section at arc length s, T tip point, A tracker,
-//            S the tracker's sensor. X_AB is the pose of B in A; adjacent letters cancel: X_AC = X_AB * X_BC. p_AB is given
-//            in axes of A. All symbols and terms: docs/derivation.md.
+//            S the tracker's sensor, F a force sensor on the tip; of a parallel robot: P platform, D and E the two ends of a
+//            rod, at the base and at the platform. X_AB is the pose of B in A; adjacent letters cancel: X_AC = X_AB * X_BC.
+//            p_AB is given in axes of A. R is a rotation, never a frame. All symbols and terms: docs/derivation.md.
 // Wrenches   n(s), m(s): what the part beyond s exerts on the part before it, in base axes.
 // Compliance C maps a wrench acting at a point, in base axes, to the small twist of that point in base axes.
 //

@@ -22,7 +22,7 @@ struct StationPosition {
 };
 
 void readEnd(const RodElement& element, Station& station) {
-  station.X_BS = element.X_end();
+  station.X_BQ = element.X_end();
   unpack(element.state.end_compliance, station.compliance);
 }
 
@@ -59,7 +59,7 @@ void readBatch(const Backbone& backbone, const RodElement& element, const Statio
   if (!state.is_arc && batch.nodes != state.dense_nodes) setWeights(state.dense_nodes, batch);
   StationResults results;
   for (int lane = 0; lane < kStationBatch; ++lane) {
-    results.pose[lane] = out[lane]->X_BS.R.data();
+    results.pose[lane] = out[lane]->X_BQ.R.data();
     results.compliance[lane] = out[lane]->compliance.data();
   }
   backbone.kernel->stations(state, batch, results);

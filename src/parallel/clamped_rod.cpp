@@ -62,8 +62,8 @@ void follow(ElementState& e, const double (&change)[6]) {
 }  // namespace
 
 ClampedRod::ClampedRod(const ParallelRod& rod, const Vector3& gravity, double accuracy, Simd simd)
-    : X_BR_(rod.X_BR),
-      gravity_(rod.X_BR.R.transpose() * gravity),
+    : X_BD_(rod.X_BD),
+      gravity_(rod.X_BD.R.transpose() * gravity),
       linear_density_(rod.section.linearDensity()),
       accuracy_(std::min(accuracy, kCoarsest)),
       scene_(sceneOf(rod)),
@@ -134,7 +134,7 @@ double ClampedRod::linearise(double goal) {
   stiffness.topRows<3>() = load_of_end.topRows<3>();
   stiffness.bottomRows<3>().noalias() =
       m.rightCols<3>() * load_of_end.topRows<3>() + m.leftCols<3>() * load_of_end.bottomRows<3>();
-  const Matrix3& R = X_BR_.R;
+  const Matrix3& R = X_BD_.R;
   stiffness_ = turned(stiffness, R);
   load_of_twist_.leftCols<3>().noalias() = load_of_end.leftCols<3>() * R.transpose();
   load_of_twist_.rightCols<3>().noalias() = load_of_end.rightCols<3>() * R.transpose();
@@ -181,22 +181,22 @@ bool ClampedRod::refine(double buckling_factor) {
 
 Wrench ClampedRod::endWrench() const {
   Wrench wrench;
-  linear(wrench) = X_BR_.R * load_.head<3>();
-  angular(wrench) = X_BR_.R * end_moment_;
+  linear(wrench) = X_BD_.R * load_.head<3>();
+  angular(wrench) = X_BD_.R * end_moment_;
   return wrench;
 }
 
 Wrench ClampedRod::baseWrench() const {
   Wrench wrench;
-  linear(wrench) = X_BR_.R * loads().baseForce(chain_);
-  angular(wrench) = X_BR_.R * load_.tail<3>();
+  linear(wrench) = X_BD_.R * loads().baseForce(chain_);
+  angular(wrench) = X_BD_.R * load_.tail<3>();
   return wrench;
 }
 
 Matrix6 ClampedRod::materialCompliance(double accuracy) {
   Matrix6 compliance;
   accumulateMaterial(chain_, accuracy, backbone_, compliance);
-  return turned(compliance, X_BR_.R);
+  return turned(compliance, X_BD_.R);
 }
 
 double ClampedRod::bendingOf(const Vector6& load) const {

@@ -40,7 +40,7 @@ class ClampedRod {
   bool refine(double buckling_factor);
 
   // After an iteration, in B.
-  Pose X_BE() const { return X_BR_ * backbone_.X_BT; }
+  Pose X_BE() const { return X_BD_ * backbone_.X_BT; }
   Wrench endWrench() const;   // of the platform on the rod, at its end
   Wrench baseWrench() const;  // of the rest of the rod on the base, at the base
 
@@ -60,12 +60,12 @@ class ClampedRod {
   bool isStableClamped() const;
 
   const Backbone& backbone() const { return backbone_; }
-  const Pose& X_BR() const { return X_BR_; }
+  const Pose& X_BD() const { return X_BD_; }
 
  private:
   DeadLoads loads() const { return {gravity_, (Wrench() << load_.head<3>(), Vector3::Zero()).finished()}; }
 
-  Pose X_BR_;
+  Pose X_BD_;
   Vector3 gravity_;        // axes of the rod's base
   double linear_density_;  // kg/m
   double bending_compliance_;        // c_bt, 1/(N m^2)

@@ -101,7 +101,7 @@ void ParallelModel::stations(const ParallelWorkspace& workspace, int rod, const 
   const ClampedRod& held = workspace.statics().rods()[rod];
   out.resize(fractions.size());
   for (size_t i = 0; i < fractions.size(); ++i)
-    out[i] = held.X_BR() * stationAt(held.backbone(), 0, fractions[i], {options_.accuracy, true}).X_BS;
+    out[i] = held.X_BD() * stationAt(held.backbone(), 0, fractions[i], {options_.accuracy, true}).X_BQ;
 }
 
 std::string ParallelModel::describe(const SolveStatus& status) const {

@@ -54,7 +54,7 @@ std::vector<ParallelRod> readRods(const YAML::Node& node, const std::optional<Cr
     const std::string path = "rods[" + std::to_string(i) + "]";
     YamlMap map(node[i], path, faults);
     ParallelRod rod;
-    rod.X_BR = readPlace(map, "base", path, faults);
+    rod.X_BD = readPlace(map, "base", path, faults);
     rod.X_PE = readPlace(map, "platform", path, faults);
     const YAML::Node own = map.child("section");
     if (own.IsDefined()) {

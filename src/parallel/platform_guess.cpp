@@ -23,8 +23,8 @@ double squaredMisfit(const ParallelScene& scene, const std::vector<double>& leng
 
 double lengthOfCurve(const ParallelRod& rod, const Pose& X_BP) {
   const Pose end = X_BP * rod.X_PE;
-  const Vector3 chord = end.p - rod.X_BR.p;
-  const Vector3 a = chord.norm() * rod.X_BR.R.col(2), b = chord.norm() * end.R.col(2);
+  const Vector3 chord = end.p - rod.X_BD.p;
+  const Vector3 a = chord.norm() * rod.X_BD.R.col(2), b = chord.norm() * end.R.col(2);
   const GaussLegendre& table = gaussLegendre(6);
   double length = 0.0;
   for (int i = 0; i < table.nodes; ++i) {
@@ -40,7 +40,7 @@ Pose guessPlatformPose(const ParallelScene& scene, const std::vector<double>& le
   double scale = 0.0;
   for (size_t i = 0; i < lengths.size(); ++i) {
     const ParallelRod& rod = scene.rods[i];
-    X.p += (rod.X_BR * (lengths[i] * Vector3::UnitZ()) - rod.X_PE.p) / lengths.size();
+    X.p += (rod.X_BD * (lengths[i] * Vector3::UnitZ()) - rod.X_PE.p) / lengths.size();
     scale += 0.3 * lengths[i] / lengths.size();
   }
   double damping = 1e-3, misfit = squaredMisfit(scene, lengths, X);

@@ -48,7 +48,7 @@ void RodCoupling::placeStraight(const std::vector<double>& lengths) {
 Pose RodCoupling::targetOf(size_t i) const {
   const Pose place = X_BP * scene_.rods[i].X_PE;
   if (homotopy >= 1.0) return place;
-  const Pose straight = scene_.rods[i].X_BR * Pose{Matrix3::Identity(), straight_lengths_[i] * Vector3::UnitZ()};
+  const Pose straight = scene_.rods[i].X_BD * Pose{Matrix3::Identity(), straight_lengths_[i] * Vector3::UnitZ()};
   return {expSo3(homotopy * logSo3(place.R * straight.R.transpose())) * straight.R,
           straight.p + homotopy * (place.p - straight.p)};
 }

@@ -55,7 +55,7 @@ MarkerArray makeParallelMarkers(const ParallelEstimate& estimate, const Parallel
   const Pose& X_BP = estimate.solution.X_BP;
   std::vector<Vector3> holes, ends;
   for (size_t i = 0; i < estimate.rods.size(); ++i) {
-    holes.push_back(scene.rods[i].X_BR.p);
+    holes.push_back(scene.rods[i].X_BD.p);
     ends.push_back(X_BP * scene.rods[i].X_PE.p);
     const double share = i / std::max(1.0, estimate.rods.size() - 1.0);
     setTube(add("rods", static_cast<int>(i), Marker::TRIANGLE_LIST), estimate.rods[i],

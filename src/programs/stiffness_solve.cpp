@@ -50,8 +50,8 @@ void appendStations(const StiffnessModel& model, const StiffnessWorkspace& works
   for (int k = 0; k < model.scene().segmentCount(); ++k) {
     for (double fraction : further.fractions) {
       const Station station = model.station(workspace, k, fraction);
-      append(station.X_BS.p, numbers);
-      const Eigen::Quaterniond q(station.X_BS.R);
+      append(station.X_BQ.p, numbers);
+      const Eigen::Quaterniond q(station.X_BQ.R);
       for (double value : {q.w(), q.x(), q.y(), q.z()}) numbers.push_back(value);
       for (int i = 0; i < 6; ++i)
         for (int j = 0; j < 6; ++j) numbers.push_back(station.compliance(i, j));

@@ -159,7 +159,7 @@ nav_msgs::Path toPath(const std::vector<Station>& stations, const Pose& X_BT, co
                       const std::string& frame) {
   nav_msgs::Path path;
   path.header = toHeader(stamp, frame);
-  for (const Station& station : stations) path.poses.push_back(toPoseStamped(station.X_BS, stamp, frame));
+  for (const Station& station : stations) path.poses.push_back(toPoseStamped(station.X_BQ, stamp, frame));
   path.poses.push_back(toPoseStamped(X_BT, stamp, frame));
   return path;
 }

@@ -21,7 +21,7 @@ Marker tube(const std::vector<Station>& shape, bool stale, const MarkerStyle& st
   std::vector<Pose> sections;
   std::vector<double> compliance;
   for (const Station& station : shape) {
-    sections.push_back(station.X_BS);
+    sections.push_back(station.X_BQ);
     compliance.push_back(largestCompliance(station));
   }
   const double largest = std::max(1e-12, *std::max_element(compliance.begin(), compliance.end()));
@@ -85,7 +85,7 @@ MarkerArray makeMarkers(const Estimate& estimate, const std::optional<Pose>& mea
   for (size_t i = 0; i < estimate.stations.size(); ++i) {
     Marker marker = newMarker(style.frame, stamp, "ellipsoids", static_cast<int>(i), Marker::SPHERE);
     const Station& station = estimate.stations[i];
-    setEllipsoid(marker, ellipsoidOf(station.compliance.topLeftCorner<3, 3>()), station.X_BS.p, style.ellipsoid_scale);
+    setEllipsoid(marker, ellipsoidOf(station.compliance.topLeftCorner<3, 3>()), station.X_BQ.p, style.ellipsoid_scale);
     marker.color = segmentColor(i / per_segment, stale);
     markers.markers.push_back(marker);
   }

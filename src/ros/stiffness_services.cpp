@@ -85,7 +85,7 @@ bool StiffnessServices::complianceAt(ComplianceAt::Request& request, ComplianceA
   const Matrix6 C = tangent.between(0, 0);
   if (!tangent.ok() || !C.allFinite()) return refuse("no tangent compliance: the robot is at its buckling load", response);
   const Station station = solver_.model().station(solver_.workspace(), request.segment, request.fraction);
-  response.pose = toPose(station.X_BS);
+  response.pose = toPose(station.X_BQ);
   response.stretch = station.stretch;
   copyRowByRow(C, response.compliance);
   copyRowByRow(station.compliance, response.material_compliance);

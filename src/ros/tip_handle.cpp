@@ -213,7 +213,7 @@ Ghost TipHandle::answerDeflection(const Estimate& estimate) {
 
 void TipHandle::addShape(Ghost& ghost) const {
   for (const Station& station : sampleBackbone(solver_.model(), solver_.workspace(), kShapeSections))
-    ghost.shape.push_back(station.X_BS);
+    ghost.shape.push_back(station.X_BQ);
 }
 
 }  // namespace live_stiffness

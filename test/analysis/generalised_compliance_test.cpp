@@ -46,7 +46,7 @@ TEST(GeneralisedCompliance, OfTheTipIsTheTangent) {
       ASSERT_TRUE(C.ok());
       EXPECT_LT(complianceError(C.between(kTip, kTip), s.solution.compliance, scene.length()), 1e-10);
       EXPECT_LT(poseError(C.pose(kTip), s.solution.X_BT, scene.length()), 1e-11);
-      EXPECT_LT(poseError(C.pose(1), s.model.station(s.workspace, 1, 0.31).X_BS, scene.length()), 1e-10);
+      EXPECT_LT(poseError(C.pose(1), s.model.station(s.workspace, 1, 0.31).X_BQ, scene.length()), 1e-10);
     }
 }
 
@@ -82,8 +82,8 @@ TEST(GeneralisedCompliance, WithoutLoadIsTheMaterialComplianceUpToTheNearerPlace
       };
       const int nearer = before(a, b) ? a : b;
       const Station station = s.model.station(s.workspace, kPlaces[nearer].segment, kPlaces[nearer].fraction);
-      const Matrix6 of_wrench = twistShift(C.pose(a).p - station.X_BS.p).transpose();
-      const Matrix6 expected = twistShift(C.pose(b).p - station.X_BS.p) * station.compliance * of_wrench;
+      const Matrix6 of_wrench = twistShift(C.pose(a).p - station.X_BQ.p).transpose();
+      const Matrix6 expected = twistShift(C.pose(b).p - station.X_BQ.p) * station.compliance * of_wrench;
       EXPECT_LT(complianceError(C.between(a, b), expected, length), 1e-10) << a << ", " << b;
     }
 }
@@ -98,7 +98,7 @@ TEST(GeneralisedCompliance, FromTheTipEqualsDifferences) {
       const auto pose = [&](const Wrench& w) {
         StiffnessWorkspace workspace = s.model.makeWorkspace();
         s.model.solve(pressures(12), w, workspace);
-        return s.model.station(workspace, kPlaces[place].segment, kPlaces[place].fraction).X_BS;
+        return s.model.station(workspace, kPlaces[place].segment, kPlaces[place].fraction).X_BQ;
       };
       const Matrix6 expected = complianceByDifferences(pose, wrench, C.between(kTip, kTip), s.model.scene().length());
       EXPECT_LT(complianceError(C.between(kTip, place), expected, s.model.scene().length()), 1e-6) << place;

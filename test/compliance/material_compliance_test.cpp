@@ -30,7 +30,7 @@ const Pressures kTwelve = bars(0.8, {1, 1, 0.2, 0.2, 0, 0, 0.3, 0.3, 1, 1, 0, 0}
 
 // (10) by Simpson's rule over 400 sections a segment, from nothing but their poses.
 Matrix6 complianceBySimpson(const Solved& solved, int segment, double fraction) {
-  const Vector3 p = solved.at(segment, fraction).X_BS.p;
+  const Vector3 p = solved.at(segment, fraction).X_BQ.p;
   Matrix6 C = Matrix6::Zero();
   for (int k = 0; k <= segment; ++k) {
     const RestState& rest = solved.workspace.backbone().rest[k];
@@ -39,7 +39,7 @@ Matrix6 complianceBySimpson(const Solved& solved, int segment, double fraction) 
     constexpr int kPanels = 400;
     for (int i = 0; i <= kPanels; ++i) {
       const double weight = length * (i == 0 || i == kPanels ? 1.0 : i % 2 ? 4.0 : 2.0) / (3.0 * kPanels);
-      const Pose X = solved.at(k, to * i / kPanels).X_BS;
+      const Pose X = solved.at(k, to * i / kPanels).X_BQ;
       Matrix6 c = Matrix6::Zero();
       c.topLeftCorner<3, 3>() = rest.c.shear_elongation;
       c.bottomRightCorner<3, 3>() = rest.c.bending_torsion;
@@ -69,7 +69,7 @@ TEST(Station, AtAnyFractionEqualsAFinerSolution) {
       for (double fraction : {0.001, 0.1, 1.0 / 3.0, 0.5, 0.77, 0.999, 1.0}) {
         const Station a = coarse.at(segment, fraction), b = fine.at(segment, fraction);
         EXPECT_LT(complianceError(a.compliance, b.compliance, 0.08), 1e-7) << segment << " " << fraction;
-        EXPECT_LT(poseError(a.X_BS, b.X_BS, 0.08), 1e-7) << segment << " " << fraction;
+        EXPECT_LT(poseError(a.X_BQ, b.X_BQ, 0.08), 1e-7) << segment << " " << fraction;
       }
   }
 }
@@ -79,7 +79,7 @@ TEST(Station, AtTheEndOfTheLastSegmentIsTheTip) {
     const Solved solved(scene, 1e-9, kTwelve);
     const Station end = solved.at(1, 1.0);
     EXPECT_LT(complianceError(end.compliance, solved.solution.material_compliance, 0.08), 1e-14);
-    EXPECT_TRUE(matrixNear(end.X_BS.p, solved.solution.X_BT.p, 1e-16));
+    EXPECT_TRUE(matrixNear(end.X_BQ.p, solved.solution.X_BT.p, 1e-16));
     EXPECT_EQ(end.stretch, solved.workspace.backbone().rest[1].stretch);
   }
 }
@@ -87,14 +87,14 @@ TEST(Station, AtTheEndOfTheLastSegmentIsTheTip) {
 TEST(Station, AtTheBaseIsRigid) {
   const Station base = Solved(paperScene(2), 1e-9, kTwelve).at(0, 0.0);
   EXPECT_TRUE(matrixNear(base.compliance, Matrix6::Zero(), 0.0));
-  EXPECT_TRUE(matrixNear(base.X_BS.p, Vector3::Zero(), 0.0));
-  EXPECT_TRUE(matrixNear(base.X_BS.R, Matrix3::Identity(), 0.0));
+  EXPECT_TRUE(matrixNear(base.X_BQ.p, Vector3::Zero(), 0.0));
+  EXPECT_TRUE(matrixNear(base.X_BQ.R, Matrix3::Identity(), 0.0));
 }
 
 TEST(Station, FractionsBeyondTheEndsAreTheEnds) {
   const Solved solved(paperScene(2), 1e-9, kTwelve);
-  EXPECT_TRUE(matrixNear(solved.at(0, -0.5).X_BS.p, solved.at(0, 0.0).X_BS.p, 0.0));
-  EXPECT_TRUE(matrixNear(solved.at(0, 1.5).X_BS.p, solved.at(0, 1.0).X_BS.p, 0.0));
+  EXPECT_TRUE(matrixNear(solved.at(0, -0.5).X_BQ.p, solved.at(0, 0.0).X_BQ.p, 0.0));
+  EXPECT_TRUE(matrixNear(solved.at(0, 1.5).X_BQ.p, solved.at(0, 1.0).X_BQ.p, 0.0));
 }
 
 TEST(MaterialCompliance, IsMovedByARigidOffsetAndByNothingElse) {
@@ -138,7 +138,7 @@ TEST(PlaceUnloaded, ArcsEqualQuadratureOfTheSameElements) {
         const Station a = stationAt(arcs, segment, fraction, {1e-13, false}),
                       b = stationAt(quadrature, segment, fraction, {1e-13, false});
         EXPECT_TRUE(matrixNear(a.compliance, b.compliance, 1e-12 * by_arcs.norm())) << bending << " " << fraction;
-        EXPECT_LT(poseError(a.X_BS, b.X_BS, 0.08), 1e-13) << bending << " " << fraction;
+        EXPECT_LT(poseError(a.X_BQ, b.X_BQ, 0.08), 1e-13) << bending << " " << fraction;
       }
   }
 }

@@ -90,7 +90,7 @@ TEST_F(StiffnessEstimatorTest, SolvesOnAChangedTipWrench) {
 TEST_F(StiffnessEstimatorTest, KeepsTheLastGoodEstimateWhenASolveFails) {
   EXPECT_EQ(estimator_.estimate(), nullptr);
   estimator_.setPressures(pressures_);
-  const Pose good = estimator_.estimate()->shape.back().X_BS;
+  const Pose good = estimator_.estimate()->shape.back().X_BQ;
   for (const Pressures& bad : {Pressures(Pressures::Constant(6, 5e5)), Pressures(Pressures::Constant(3, 1e3)),
                                Pressures(Pressures::Constant(6, std::numeric_limits<double>::quiet_NaN()))}) {
     EXPECT_EQ(estimator_.setPressures(bad), Outcome::kFailed);
@@ -98,7 +98,7 @@ TEST_F(StiffnessEstimatorTest, KeepsTheLastGoodEstimateWhenASolveFails) {
     EXPECT_FALSE(estimator_.statusText().empty());
     ASSERT_NE(estimator_.estimate(), nullptr);
     EXPECT_EQ(estimator_.estimate()->pressures, pressures_);
-    EXPECT_EQ(estimator_.estimate()->shape.back().X_BS.p, good.p) << "the failed shape must not be shown";
+    EXPECT_EQ(estimator_.estimate()->shape.back().X_BQ.p, good.p) << "the failed shape must not be shown";
   }
   EXPECT_EQ(estimator_.setPressures(pressures_), Outcome::kSolved);
   EXPECT_TRUE(estimator_.statusText().empty());
@@ -111,7 +111,7 @@ TEST_F(StiffnessEstimatorTest, StiffnessIsTheInverseAndStationsAreWhereTheyWereA
   EXPECT_LT((estimate.stiffness * estimate.solution.compliance - Matrix6::Identity()).norm(), 1e-11);
   ASSERT_EQ(estimate.stations.size(), 5u);
   const Station& last = estimate.stations.back();  // fraction 1; the tip point has no offset in this scene
-  EXPECT_LT((last.X_BS.p - estimate.solution.X_BT.p).norm(), 1e-15);
+  EXPECT_LT((last.X_BQ.p - estimate.solution.X_BT.p).norm(), 1e-15);
   EXPECT_LT((last.compliance - estimate.solution.material_compliance).norm(), 1e-12 * last.compliance.norm());
 }
 
@@ -128,10 +128,10 @@ TEST_F(StiffnessEstimatorTest, ShapeIsThatOfTheSolution) {
   const std::vector<Station>& shape = two.estimate()->shape;
   ASSERT_EQ(shape.size(), 2u * (kShapeSections + 1));
   ASSERT_EQ(shape.size(), expected.size());
-  EXPECT_EQ(shape.front().X_BS.p.norm(), 0.0);
+  EXPECT_EQ(shape.front().X_BQ.p.norm(), 0.0);
   for (size_t i = 0; i < shape.size(); ++i) {
     // Two solves from different starts, each to the model's accuracy of 1e-9.
-    EXPECT_LT((shape[i].X_BS.p - expected[i].X_BS.p).norm(), 1e-9) << i;
+    EXPECT_LT((shape[i].X_BQ.p - expected[i].X_BQ.p).norm(), 1e-9) << i;
     EXPECT_LT((shape[i].compliance - expected[i].compliance).norm(), 1e-8 * (1e-3 + expected[i].compliance.norm())) << i;
   }
 }

@@ -21,8 +21,8 @@ inline ParallelScene awkwardRobot() {
   scene.platform_mass = 0.15;
   scene.platform_centre = Vector3(0.01, -0.02, 0.03);
   for (int i = 0; i < 6; ++i) {
-    scene.rods[i].X_BR.p.z() += 0.004 * i;
-    scene.rods[i].X_BR.R = expSo3(Vector3(0.03 * i, -0.05, 0.0));
+    scene.rods[i].X_BD.p.z() += 0.004 * i;
+    scene.rods[i].X_BD.R = expSo3(Vector3(0.03 * i, -0.05, 0.0));
     scene.rods[i].X_PE.R = expSo3(Vector3(-0.04, 0.02 * i, 0.1));
   }
   scene.rods[2].section.outer_radius = 0.0012;

@@ -36,7 +36,7 @@ TEST(ParallelEstimator, RodsRunFromBaseToPlatform) {
   for (size_t i = 0; i < 6; ++i) {
     const ParallelRod& rod = estimator.model().scene().rods[i];
     const std::vector<Pose>& shape = estimate.rods[i];
-    EXPECT_LT(poseError(shape.front(), rod.X_BR, 0.4), 1e-12);
+    EXPECT_LT(poseError(shape.front(), rod.X_BD, 0.4), 1e-12);
     EXPECT_LT(poseError(shape.back(), estimate.solution.X_BP * rod.X_PE, 0.4), 1e-7);
     double length = 0.0;
     for (size_t k = 1; k < shape.size(); ++k) length += (shape[k].p - shape[k - 1].p).norm();

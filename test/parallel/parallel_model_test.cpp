@@ -115,7 +115,7 @@ TEST(ParallelEquilibrium, IsConfirmedByRungeKutta) {
     for (int i = 0; i < c.scene.rodCount(); ++i) {
       const ClampedRod& rod = workspace.statics().rods()[i];
       const ParallelRod& data = c.scene.rods[i];
-      const RodEnd end = marchRod(data.section, data.X_BR, rod.length(), rod.baseWrench(), gravity, 400);
+      const RodEnd end = marchRod(data.section, data.X_BD, rod.length(), rod.baseWrench(), gravity, 400);
       EXPECT_LT(poseError(end.X, solution.X_BP * data.X_PE, kLength), 1e-9) << "rod " << i;  // RK4: (1/400)^4
       linear(load) -= linear(end.wrench);
       angular(load) -= angular(end.wrench) + (end.X.p - p).cross(linear(end.wrench));
@@ -133,7 +133,7 @@ TEST(ParallelEquilibrium, IsConfirmedByRungeKutta) {
 TEST(ParallelEquilibrium, OfOneRodIsThatOfASerialRobot) {
   ParallelScene one = stewartGough();
   one.rods.resize(1);
-  one.rods[0].X_BR = one.rods[0].X_PE = Pose();
+  one.rods[0].X_BD = one.rods[0].X_PE = Pose();
   one.gravity = Vector3(1.0, 2.0, -9.0);
   one.platform_mass = 0.02;
   const ParallelModel model(one, {1e-11});
@@ -178,7 +178,7 @@ TEST(ParallelEquilibrium, TurnsWithTheWholeRobot) {
   turned.gravity = Q * *scene.gravity;
   turned.platform_centre = Q * scene.platform_centre;
   for (ParallelRod& rod : turned.rods)
-    for (Pose* X : {&rod.X_BR, &rod.X_PE}) *X = {Q * X->R, Q * X->p};
+    for (Pose* X : {&rod.X_BD, &rod.X_PE}) *X = {Q * X->R, Q * X->p};
   Matrix6 Q6 = Matrix6::Zero();
   Q6.topLeftCorner<3, 3>() = Q6.bottomRightCorner<3, 3>() = Q;
   const ParallelSolution expected = solveCold(ParallelModel(scene, {1e-11}), unevenLengths(), kWrench);
@@ -238,8 +238,8 @@ TEST(ParallelStability, EndsAtEulersLoad) {
   ParallelScene frame = stewartGough();
   frame.rods.resize(4);
   for (int i = 0; i < 4; ++i) {
-    frame.rods[i].X_BR = frame.rods[i].X_PE = Pose();
-    frame.rods[i].X_BR.p = frame.rods[i].X_PE.p = Vector3(i < 2 ? 0.1 : -0.1, i % 2 ? 0.1 : -0.1, 0.0);
+    frame.rods[i].X_BD = frame.rods[i].X_PE = Pose();
+    frame.rods[i].X_BD.p = frame.rods[i].X_PE.p = Vector3(i < 2 ? 0.1 : -0.1, i % 2 ? 0.1 : -0.1, 0.0);
   }
   const double EI = frame.rods[0].section.youngs_modulus * kPi / 4.0 * std::pow(0.001, 4);
   const double euler = 4.0 * kPi * kPi * EI / (kLength * kLength);
@@ -262,10 +262,10 @@ TEST(ParallelStability, SeesARodBuckleBetweenHeldEnds) {
   ParallelScene robot = stewartGough();
   robot.rods.resize(4);
   for (int i = 0; i < 4; ++i) {
-    robot.rods[i].X_BR = robot.rods[i].X_PE = Pose();
+    robot.rods[i].X_BD = robot.rods[i].X_PE = Pose();
     robot.rods[i].section.outer_radius = i == 0 ? 0.001 : 0.02;
     if (i == 0) continue;
-    robot.rods[i].X_BR.p = robot.rods[i].X_PE.p = 0.1 * Vector3(std::cos(2.1 * i), std::sin(2.1 * i), 0.0);
+    robot.rods[i].X_BD.p = robot.rods[i].X_PE.p = 0.1 * Vector3(std::cos(2.1 * i), std::sin(2.1 * i), 0.0);
   }
   const double strain = std::pow(kPi * 0.001 / kLength, 2);
   const ParallelModel model(robot, {1e-7});
@@ -322,10 +322,10 @@ TEST(ParallelModel, PlacesStationsAlongItsRods) {
   for (int i = 0; i < scene.rodCount(); ++i) {
     model.stations(workspace, i, {0.0, 0.5, 1.0}, stations);
     const ClampedRod& rod = workspace.statics().rods()[i];
-    EXPECT_LT(poseError(stations[0], scene.rods[i].X_BR, kLength), 1e-12);
+    EXPECT_LT(poseError(stations[0], scene.rods[i].X_BD, kLength), 1e-12);
     EXPECT_LT(poseError(stations[2], solution.X_BP * scene.rods[i].X_PE, kLength), 1e-8);
     // Half the rod, under the same base wrench.
-    const RodEnd middle = marchRod(scene.rods[i].section, scene.rods[i].X_BR, 0.5 * rod.length(), rod.baseWrench(),
+    const RodEnd middle = marchRod(scene.rods[i].section, scene.rods[i].X_BD, 0.5 * rod.length(), rod.baseWrench(),
                                    *scene.gravity, 400);
     EXPECT_LT(poseError(stations[1], middle.X, kLength), 1e-7);
   }

@@ -35,7 +35,7 @@ TEST(ParallelSceneFile, LoadsTheStewartGoughRobot) {
   EXPECT_EQ(scene.rods[5].section.youngs_modulus, 207e9);
   EXPECT_DOUBLE_EQ(scene.rods[0].section.shear_modulus, 207e9 / 2.6);
   const double a = radians(-4.0), b = radians(-56.0);
-  EXPECT_TRUE(matrixNear(scene.rods[0].X_BR.p, 0.073 * Vector3(std::cos(a), std::sin(a), 0.0), 1e-16));
+  EXPECT_TRUE(matrixNear(scene.rods[0].X_BD.p, 0.073 * Vector3(std::cos(a), std::sin(a), 0.0), 1e-16));
   EXPECT_TRUE(matrixNear(scene.rods[0].X_PE.p, 0.073 * Vector3(std::cos(b), std::sin(b), 0.0), 1e-16));
 }
 
@@ -47,8 +47,8 @@ TEST(ParallelSceneFile, TakesHeightsAxesAndSectionsOfSingleRods) {
       "  - {" + kPlaces + ", section: {outer_radius_m: 0.002, lumen_radius_m: 0.001, youngs_modulus_pa: 1.0e+11, "
       "shear_modulus_pa: 4.0e+10}}\n", "test");
   ASSERT_EQ(scene.rodCount(), 2);
-  EXPECT_TRUE(matrixNear(scene.rods[0].X_BR.p, Vector3(0.0, 0.1, 0.02), 1e-16));
-  EXPECT_TRUE(matrixNear(scene.rods[0].X_BR.R.col(2), Vector3(1.0, 0.0, 1.0).normalized(), 1e-15));
+  EXPECT_TRUE(matrixNear(scene.rods[0].X_BD.p, Vector3(0.0, 0.1, 0.02), 1e-16));
+  EXPECT_TRUE(matrixNear(scene.rods[0].X_BD.R.col(2), Vector3(1.0, 0.0, 1.0).normalized(), 1e-15));
   EXPECT_EQ(scene.rods[0].section.outer_radius, 0.001);
   EXPECT_EQ(scene.rods[1].section.lumen_radius, 0.001);
   EXPECT_EQ(scene.rods[1].section.shear_modulus, 4e10);

@@ -57,7 +57,7 @@ TEST(Joints, KeepPoseAndBalanceOfForceAndMoment) {
           X = last.X_end();
           n = last.n_end();
           m = last.m_end();
-          EXPECT_TRUE(matrixNear(model.station(workspace, k, 1.0).X_BS.p, X.p, 1e-11 * length));
+          EXPECT_TRUE(matrixNear(model.station(workspace, k, 1.0).X_BQ.p, X.p, 1e-11 * length));
         },
         [&](const Link& link) {
           ++joints;

@@ -72,7 +72,7 @@ TEST_F(MarkersTest, TubeFollowsTheBackboneAndIsColouredByCompliance) {
   for (const auto& point : tube.points) {
     double nearest = 1.0;
     for (const Station& sample : samples)
-      nearest = std::min(nearest, (Vector3(point.x, point.y, point.z) - sample.X_BS.p).norm());
+      nearest = std::min(nearest, (Vector3(point.x, point.y, point.z) - sample.X_BQ.p).norm());
     EXPECT_NEAR(nearest, style_.tube_radius, 1e-9);
   }
   EXPECT_GT(tube.colors.front().b, tube.colors.front().r) << "blue at the stiff base";

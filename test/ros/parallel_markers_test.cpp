@@ -39,7 +39,7 @@ TEST_F(ParallelMarkersTest, RodsStandOnTheirHolesAndReachThePlatform) {
   for (int i = 0; i < 6; ++i) {
     const Marker& rod = find(array, "rods", i);
     const ParallelRod& model = estimator_.model().scene().rods[i];
-    EXPECT_NEAR((vectorOf(rod.points.front()) - model.X_BR.p).norm(), style_.tube_radius, 1e-9);
+    EXPECT_NEAR((vectorOf(rod.points.front()) - model.X_BD.p).norm(), style_.tube_radius, 1e-9);
     const Vector3 end = estimator_.estimate()->solution.X_BP * model.X_PE.p;
     EXPECT_NEAR((vectorOf(rod.points.back()) - end).norm(), style_.tube_radius, 1e-6);
     colours.emplace(rod.color.r, rod.color.g, rod.color.b);

@@ -146,7 +146,7 @@ TEST_F(QuestionsTest, TwoSegmentsOnTwelveChannelsAreShownInTwoColours) {
   for (int i = 0; i < 10; ++i) {
     const auto& color = marker("ellipsoids", i)->color;
     (i < 5 ? of_first : of_second).emplace(color.r, color.g, color.b);
-    const Vector3 expected = model_.station(workspace_, i / 5, EstimatorOptions().fractions[i % 5]).X_BS.p;
+    const Vector3 expected = model_.station(workspace_, i / 5, EstimatorOptions().fractions[i % 5]).X_BQ.p;
     EXPECT_LT((positionOf(marker("ellipsoids", i)->pose) - expected).norm(), kSame);
   }
   EXPECT_EQ(of_first.size(), 1u);
@@ -186,7 +186,7 @@ TEST_F(QuestionsTest, ComplianceAtEqualsTheLibrary) {
     EXPECT_LT((matrixFrom(answer.compliance) - tangent.between(0, 0)).norm(), kSame * solution_.compliance.norm());
     EXPECT_LT((matrixFrom(answer.material_compliance) - station.compliance).norm(),
               kSame * solution_.compliance.norm());
-    EXPECT_LT((positionOf(answer.pose) - station.X_BS.p).norm(), kSame);
+    EXPECT_LT((positionOf(answer.pose) - station.X_BQ.p).norm(), kSame);
     EXPECT_NEAR(answer.stretch, station.stretch, 1e-9);
   }
   ComplianceAt::Request tip;  // T is at the end of the last segment

@@ -17,9 +17,9 @@ Vector3 momentOfLoads(const StiffnessModel& model, const StiffnessWorkspace& wor
         for (int panel = 0; panel < panels; ++panel)
           for (int i = 0; i < 5; ++i) {
             const Station station = model.station(workspace, index, (panel + kNodes[i]) / panels);
-            moment += station.X_BS.p.cross(kWeights[i] / panels * segment.mass() * gravity);
+            moment += station.X_BQ.p.cross(kWeights[i] / panels * segment.mass() * gravity);
           }
-        X = model.station(workspace, index, 1.0).X_BS;
+        X = model.station(workspace, index, 1.0).X_BQ;
       },
       [&](const Link& link) {
         moment += (X * Vector3(0.0, 0.0, 0.5 * link.length)).cross(link.mass * gravity);

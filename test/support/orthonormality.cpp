@@ -42,7 +42,7 @@ SolverOrthonormality solverOrthonormality(const OrthonormalityCase& which, int s
   SolverOrthonormality result;
   result.elements = workspace.backbone().element_count[0];
   for (int i = 0; i < stations; ++i)
-    result.errors.push_back(orthonormalityError(model.station(workspace, 0, i / (stations - 1.0)).X_BS.R));
+    result.errors.push_back(orthonormalityError(model.station(workspace, 0, i / (stations - 1.0)).X_BQ.R));
   return result;
 }
 

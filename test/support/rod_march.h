@@ -13,8 +13,8 @@ struct RodEnd {
   Wrench wrench;   // of what is beyond on the rod, about its end, base axes
 };
 
-// base_wrench: of the rod beyond on the base, about the rod's base X_BR, base axes. Length in m, gravity in m/s^2.
-inline RodEnd marchRod(const CrossSection& section, const Pose& X_BR, double length, const Wrench& base_wrench,
+// base_wrench: of the rod beyond on the base, about the rod's base X_BD, base axes. Length in m, gravity in m/s^2.
+inline RodEnd marchRod(const CrossSection& section, const Pose& X_BD, double length, const Wrench& base_wrench,
                        const Vector3& gravity, int steps) {
   const ComplianceDensity c = SectionMoments(section).complianceDensity(1.0);
   struct State {
@@ -26,7 +26,7 @@ inline RodEnd marchRod(const CrossSection& section, const Pose& X_BR, double len
     const Vector3 u = c.bending_torsion * (at.R.transpose() * at.m);
     return State{at.R * hat(u), at.R * v, -section.linearDensity() * gravity, -(at.R * v).cross(at.n)};
   };
-  State s{X_BR.R, X_BR.p, linear(base_wrench), angular(base_wrench)};
+  State s{X_BD.R, X_BD.p, linear(base_wrench), angular(base_wrench)};
   const auto moved = [&](const State& d, double by) {
     return State{s.R + by * d.R, s.p + by * d.p, s.n + by * d.n, s.m + by * d.m};
   };

@@ -11,7 +11,7 @@ namespace live_stiffness {
 // A section of the robot: its pose in B, stretch, and material compliance of everything between base and section,
 // about the section's origin, in base axes (6x6, SI, linear first).
 struct Station {
-  Pose X_BS;
+  Pose X_BQ;
   double stretch = 1.0;
   Matrix6 compliance = Matrix6::Zero();
 };

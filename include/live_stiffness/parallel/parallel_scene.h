@@ -15,7 +15,7 @@ namespace live_stiffness {
 // orientation the rod is not twisted.
 struct ParallelRod {
   CrossSection section;  // without chambers
-  Pose X_BR;             // where it leaves the base, m
+  Pose X_BD;             // where it leaves the base, m
   Pose X_PE;             // where the platform holds its end, m
 };
 
