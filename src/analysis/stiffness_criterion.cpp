@@ -2,9 +2,11 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
+#include <optional>
+#include <vector>
 
+#include "csv_table.h"
 #include "live_stiffness/analysis/directional_stiffness.h"
 #include "live_stiffness/analysis/eigenscrews.h"
 #include "live_stiffness/analysis/ellipsoid.h"
@@ -84,15 +86,9 @@ Vector3 directionNamed(const std::string& name, const std::string& text, FaultLi
   const std::string axis = negative || (!text.empty() && text[0] == '+') ? text.substr(1) : text;
   if (axis.size() == 1 && axis[0] >= 'x' && axis[0] <= 'z')
     return Vector3::Unit(axis[0] - 'x') * (negative ? -1.0 : 1.0);
-  Vector3 direction = Vector3::Zero();
-  const char* rest = text.c_str();
-  bool good = true;
-  for (int i = 0; i < 3 && good; ++i) {
-    char* end = nullptr;
-    direction[i] = std::strtod(rest, &end);
-    good = end != rest && *end == (i < 2 ? ',' : '\0');
-    rest = end + 1;
-  }
+  const std::optional<std::vector<double>> numbers = numberList(text, ',');
+  const bool good = numbers && numbers->size() == 3;
+  const Vector3 direction = good ? Vector3(numbers->data()) : Vector3::Zero();
   const double size = direction.stableNorm();
   if (good && size > 0.0 && std::isfinite(size)) return direction / size;
   faults.add(name + " = " + text + ": must be x, y, z or three finite numbers dx,dy,dz that are not all zero");

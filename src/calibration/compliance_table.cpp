@@ -1,9 +1,9 @@
 #include "calibration/compliance_table.h"
 
-#include <algorithm>
 #include <sstream>
+#include <string>
 
-#include "estimation/recording_columns.h"
+#include "csv_table.h"
 #include "live_stiffness/checks.h"
 
 namespace live_stiffness {
@@ -11,34 +11,21 @@ namespace live_stiffness {
 std::vector<ComplianceRow> parseComplianceTable(const std::string& csv, const std::string& name, int chamber_count) {
   FaultList faults("compliance table " + name);
   std::istringstream text(csv);
-  std::string line;
-  std::getline(text, line);
-  const std::vector<std::string> header = splitCsvLine(line);
-  std::vector<std::string> wanted;
-  for (int k = 1; k <= chamber_count; ++k) wanted.push_back("pressure_" + std::to_string(k) + "_pa");
+  CsvTable table(text);
+  std::vector<int> columns;
+  for (int k = 1; k <= chamber_count; ++k) columns.push_back(table.require("pressure_" + std::to_string(k) + "_pa", faults));
   for (int j = 1; j <= 3; ++j)
-    for (int i = 1; i <= 3; ++i) wanted.push_back("c" + std::to_string(i) + std::to_string(j) + "_m_per_n");
-  std::vector<size_t> columns;
-  for (const std::string& column : wanted) {
-    const auto found = std::find(header.begin(), header.end(), column);
-    if (found == header.end()) faults.add("column " + column + " is missing");
-    columns.push_back(static_cast<size_t>(found - header.begin()));
-  }
+    for (int i = 1; i <= 3; ++i)
+      columns.push_back(table.require("c" + std::to_string(i) + std::to_string(j) + "_m_per_n", faults));
   faults.throwIfAny();
   std::vector<ComplianceRow> rows;
-  for (int number = 2; std::getline(text, line); ++number) {
-    const std::vector<std::string> fields = splitCsvLine(line);
-    if (fields.size() == 1 && fields[0].empty()) continue;
-    const std::string where = "line " + std::to_string(number);
-    if (fields.size() != header.size()) {
-      faults.add(where + ": " + std::to_string(fields.size()) + " fields: must be " + std::to_string(header.size()));
-      continue;
-    }
+  for (std::string fault; table.next(fault);) {
+    const std::string where = "line " + std::to_string(table.line());
     std::vector<double> values;
-    for (size_t k = 0; k < columns.size(); ++k) {
-      const std::optional<double> value = finiteNumber(fields[columns[k]]);
-      if (!value) faults.add(where + ": " + wanted[k] + " = '" + fields[columns[k]] + "': must be a finite number");
-      values.push_back(value.value_or(0.0));
+    for (size_t k = 0; k < columns.size() && fault.empty(); ++k) values.push_back(table.number(columns[k], fault));
+    if (!fault.empty()) {
+      faults.add(where + ": " + fault);
+      continue;
     }
     ComplianceRow row;
     row.name = name + " " + where;
@@ -47,7 +34,7 @@ std::vector<ComplianceRow> parseComplianceTable(const std::string& csv, const st
     if (!(row.compliance.norm() > 0.0)) faults.add(where + ": compliance is zero");
     rows.push_back(row);
   }
-  if (rows.empty()) faults.add("no row");
+  if (rows.empty() && faults.empty()) faults.add("no row");
   faults.throwIfAny();
   return rows;
 }

@@ -1,29 +1,18 @@
 #include "live_stiffness/estimation/recording.h"
 
 #include <array>
-#include <cmath>
-#include <fstream>
 #include <sstream>
 
 #include "live_stiffness/checks.h"
-#include "recording_columns.h"
+#include "estimation/recording_columns.h"
 
 namespace live_stiffness {
 namespace {
 
-// The sample on a line, or the reason why it is none.
-std::optional<RecordedSample> readSample(const RecordingColumns& columns, const std::vector<std::string>& fields,
-                                         const Recording& so_far, std::string& reason) {
-  if (fields.size() != columns.names.size()) {
-    reason = std::to_string(fields.size()) + " fields: must be " + std::to_string(columns.names.size());
-    return std::nullopt;
-  }
-  const auto number = [&](int column) {
-    const std::optional<double> value = finiteNumber(fields[column]);
-    if (!value && reason.empty())
-      reason = columns.names[column] + " = '" + fields[column] + "': must be a finite number";
-    return value.value_or(0.0);
-  };
+// The sample of the table's present row, or the reason why it is none.
+std::optional<RecordedSample> readSample(const CsvTable& table, const RecordingColumns& columns, const Recording& so_far,
+                                         std::string& reason) {
+  const auto number = [&](int column) { return table.number(column, reason); };
   const auto vector = [&](const std::array<int, 3>& column) {
     return Vector3(number(column[0]), number(column[1]), number(column[2]));
   };
@@ -69,24 +58,19 @@ Recording parseRecording(const std::string& csv, const std::string& name) {
   Recording recording;
   recording.name = name;
   std::istringstream text(csv);
-  std::string line;
-  int line_number = 1;
-  std::getline(text, line);
-  const RecordingColumns columns = findColumns(line, recording.warnings, faults);
+  CsvTable table(text);
+  const RecordingColumns columns = findColumns(table, recording.warnings, faults);
   faults.throwIfAny();
   recording.absolute = columns.absolute;
 
-  while (std::getline(text, line)) {
-    ++line_number;
-    const std::vector<std::string> fields = splitCsvLine(line);
-    if (fields.size() == 1 && fields[0].empty()) continue;  // blank lines carry nothing that could be lost
-    std::string reason;
-    std::optional<RecordedSample> sample = readSample(columns, fields, recording, reason);
+  for (std::string reason; table.next(reason);) {
+    std::optional<RecordedSample> sample;
+    if (reason.empty()) sample = readSample(table, columns, recording, reason);
     if (!sample) {
-      recording.warnings.push_back("line " + std::to_string(line_number) + ": " + reason);
+      recording.warnings.push_back("line " + std::to_string(table.line()) + ": " + reason);
       continue;
     }
-    sample->line = line_number;
+    sample->line = static_cast<int>(table.line());
     recording.samples.push_back(std::move(*sample));
   }
   if (recording.samples.empty()) {

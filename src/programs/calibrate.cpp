@@ -1,11 +1,13 @@
 // calibrate SCENE.yaml RECORDING...: fits chosen parameters of a scene, and where base and sensor are, to recordings
 // and to tables of measured compliance. Needs no ROS; built with it, it reads bags too.
 
-#include <boost/program_options.hpp>
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <optional>
 
+#include "command_line.h"
+#include "csv_table.h"
 #include "force_sensor_options.h"
 #include "calibration/calibration.h"
 #include "calibration/calibration_report.h"
@@ -21,8 +23,6 @@ namespace po = boost::program_options;
 using namespace live_stiffness;
 
 namespace {
-
-constexpr int kExitOk = 0, kExitNotConverged = 1, kExitUsage = 2;
 
 const char* const kHelp =
     "calibrate SCENE.yaml [RECORDING.csv|.bag ...] [--compliance-table TABLE.csv ...] [--parameters NAME ...]\n\n"
@@ -44,11 +44,10 @@ struct Arguments {
 };
 
 po::options_description describe(Arguments& a) {
-  po::options_description options("Options");
+  po::options_description options = helpOption();
   a.force_sensor.addTo(options);
   a.reader.addOptionsTo(options);
   options.add_options()
-    ("help,h", "print this and exit")
     ("scene", po::value(&a.scene)->required(), "scene file; its values are the start and the priors' means")
     ("recordings", po::value(&a.recordings)->composing(), "CSV recordings (or bags)")
     ("compliance-table", po::value(&a.tables)->composing(),
@@ -84,22 +83,21 @@ po::options_description describe(Arguments& a) {
 // "NAME=A:B" of one of the parameters, in its unit.
 void readPair(const std::string& text, const std::string& option, std::vector<SceneParameter>& parameters,
               FaultList& faults, double SceneParameter::*first, double SceneParameter::*second) {
-  const size_t equals = text.find('='), colon = text.find(':');
-  try {
-    if (equals == std::string::npos || colon == std::string::npos) throw std::invalid_argument("form");
-    const std::string name = text.substr(0, equals);
-    for (SceneParameter& parameter : parameters) {
-      if (parameter.name != name) continue;
-      parameter.*first = std::stod(text.substr(equals + 1, colon - equals - 1)) * parameter.unit;
-      parameter.*second = std::stod(text.substr(colon + 1)) * parameter.unit;
-      if (option == "prior" && !(parameter.prior_sigma > 0.0)) faults.add("--prior " + text + ": SIGMA must be > 0");
-      if (option == "bounds" && !(parameter.low < parameter.high))
-        faults.add("--bounds " + text + ": LOW must be below HIGH");
-      return;
-    }
-    faults.add("--" + option + " " + text + ": '" + name + "' is not among --parameters");
-  } catch (const std::exception&) {
+  const size_t equals = std::min(text.find('='), text.size());
+  const auto numbers = numberList(equals < text.size() ? text.substr(equals + 1) : "", ':');
+  const auto parameter = std::find_if(parameters.begin(), parameters.end(), [&](const SceneParameter& known) {
+    return known.name == text.substr(0, equals);
+  });
+  if (!numbers || numbers->size() != 2) {
     faults.add("--" + option + " " + text + ": must be NAME=NUMBER:NUMBER");
+  } else if (parameter == parameters.end()) {
+    faults.add("--" + option + " " + text + ": '" + text.substr(0, equals) + "' is not among --parameters");
+  } else {
+    (*parameter).*first = (*numbers)[0] * parameter->unit;
+    (*parameter).*second = (*numbers)[1] * parameter->unit;
+    if (option == "prior" && !(parameter->prior_sigma > 0.0)) faults.add("--prior " + text + ": SIGMA must be > 0");
+    if (option == "bounds" && !(parameter->low < parameter->high))
+      faults.add("--bounds " + text + ": LOW must be below HIGH");
   }
 }
 
@@ -122,8 +120,7 @@ int run(const Arguments& a, const std::string& command) {
   options.model = namedModelOptions(a.model, a.stepping, faults);
   if (a.stepping.empty() && options.model.stepping == Stepping::kFixedStep)
     options.model.stepping = Stepping::kContinuous;
-  if (a.samples != "all" && a.samples != "quasi_static")
-    faults.add("samples '" + a.samples + "': must be all or quasi_static");
+  const SampleChoice samples = sampleChoice(a.samples, faults);
   faults.check("position-sigma-mm", a.position_mm, Range::positive());
   faults.check("rotation-sigma-deg", a.rotation_deg, Range::positive());
   faults.check("compliance-sigma", a.compliance, Range::positive());
@@ -147,8 +144,7 @@ int run(const Arguments& a, const std::string& command) {
   std::vector<CalibrationRecording> recordings;
   for (const std::string& path : a.recordings) {
     Recording recording = withTrackerDelay(a.reader.load(path), a.tracker_delay);
-    recordings.emplace_back(std::move(recording),
-                            a.samples == "all" ? SampleChoice::kAll : SampleChoice::kQuasiStatic, *loads);
+    recordings.emplace_back(std::move(recording), samples, *loads);
   }
   const ChannelMap channels = channelsFor(a, recordings, scene.chamberCount());
   std::vector<SceneParameter> parameters;
@@ -208,7 +204,7 @@ int run(const Arguments& a, const std::string& command) {
   }
   if (!a.residuals.empty()) writeTextFile("output", a.residuals, residualTable(result, recordings));
   if (!a.rows.empty()) writeTextFile("output", a.rows, complianceTableOf(result));
-  return result.converged ? kExitOk : kExitNotConverged;
+  return result.converged ? kExitOk : kExitPartly;
 }
 
 }  // namespace
@@ -216,26 +212,9 @@ int run(const Arguments& a, const std::string& command) {
 int main(int argc, char** argv) {
   Arguments a;
   const po::options_description options = describe(a);
-  po::positional_options_description positional;
-  positional.add("scene", 1).add("recordings", -1);
-  try {
-    po::variables_map values;
-    po::store(po::command_line_parser(argc, argv)
-                  .options(options)
-                  .positional(positional)
-                  .style(po::command_line_style::default_style & ~po::command_line_style::allow_guessing)
-                  .run(),
-              values);
-    if (values.count("help")) {
-      std::cout << kHelp << options;
-      return kExitOk;
-    }
-    po::notify(values);
+  return runProgram({argv, argv + argc}, kHelp, options, {{"scene", 1}, {"recordings", -1}}, [&](const po::variables_map&) {
     std::string command = "calibrate";
     for (int k = 1; k < argc; ++k) command += std::string(" ") + argv[k];
     return run(a, command);
-  } catch (const std::exception& error) {
-    std::cerr << "calibrate: " << error.what() << "\nSee calibrate --help.\n";
-    return kExitUsage;
-  }
+  });
 }

@@ -2,15 +2,15 @@
 // estimator would have seen it, beside the force sensor where there is one; and what one update costs.
 
 #include <algorithm>
-#include <boost/program_options.hpp>
 #include <chrono>
 #include <cmath>
 #include <iostream>
 #include <sstream>
 
+#include "command_line.h"
 #include "force_sensor_options.h"
 #include "calibration/calibration.h"
-#include "estimation/contact_score.h"
+#include "contact_score.h"
 #include "estimation/tracker_delay.h"
 #include "live_stiffness/estimation/tip_wrench_estimator.h"
 #include "part_file.h"
@@ -89,7 +89,7 @@ void run(const std::string& scene_path, const Recording& recorded, const std::st
                       estimate->contact, mount.seen(X_BT.R)});
   }
   if (!output.empty()) writeTextFile("output", output, out.str());
-  else if (!(std::cout << out.str() << std::flush)) throw ConfigurationError("standard output", {"cannot be written"});
+  else std::cout << out.str();
   if (!scored.empty()) {
     const ContactScore score = contactScore(scored);
     std::cerr << score.text() << "\n";
@@ -109,9 +109,8 @@ int main(int argc, char** argv) {
   RecordingReader reader;
   TipWrenchOptions filter;
   double per_bar_m = 1e5 * filter.bias_position_per_pressure, per_bar_deg = 1e5 * degrees(filter.bias_rotation_per_pressure);
-  po::options_description options("Options");
+  po::options_description options = helpOption();
   options.add_options()
-    ("help,h", "print this and exit")
     ("scene", po::value(&scene)->required(), "scene of the recorded robot")
     ("recording", po::value(&recording)->required(), "CSV recording, or a bag")
     ("registration", po::value(&registration)->required(), "registration file, as register_recording writes it")
@@ -131,22 +130,10 @@ int main(int argc, char** argv) {
     ("score", po::value(&score), "CSV file to write how well the estimate follows the recorded force: quantity,value");
   force_sensor.addTo(options);
   reader.addOptionsTo(options);
-  po::positional_options_description positional;
-  positional.add("scene", 1).add("recording", 1);
-  try {
-    po::variables_map values;
-    po::store(po::command_line_parser(argc, argv).options(options).positional(positional).run(), values);
-    if (values.count("help")) {
-      std::cout << kHelp << options;
-      return 0;
-    }
-    po::notify(values);
+  return runProgram({argv, argv + argc}, kHelp, options, {{"scene", 1}, {"recording", 1}}, [&](const po::variables_map&) {
     filter.bias_position_per_pressure = 1e-5 * per_bar_m;
     filter.bias_rotation_per_pressure = 1e-5 * radians(per_bar_deg);
     run(scene, reader.load(recording), registration, output, score, force_sensor.mount(), filter);
-    return 0;
-  } catch (const std::exception& error) {
-    std::cerr << "estimate_wrench: " << error.what() << "\nSee estimate_wrench --help.\n";
-    return 2;
-  }
+    return kExitOk;
+  });
 }

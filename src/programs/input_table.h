@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "csv_table.h"
 #include "live_stiffness/conventions.h"
 
 namespace live_stiffness {
@@ -20,17 +21,14 @@ class InputTable {
  public:
   // Reads the header: `inputs` and, all or none, fx_n .. mz_nm, in any order. Throws ConfigurationError with every
   // fault of the header.
-  InputTable(std::istream& input, std::vector<std::string> inputs);
+  InputTable(std::istream& input, const std::vector<std::string>& inputs);
 
   // The next row that is not blank; false at the end. A row with a fault is returned, with `fault` set.
   bool next(InputRow& row);
 
  private:
-  std::istream& input_;
-  int inputs_;              // their number
-  std::vector<int> slots_;  // per column: index of the input, or inputs + index in the wrench
-  std::vector<std::string> names_;
-  long line_ = 0;
+  CsvTable table_;
+  std::vector<int> inputs_, wrench_;  // columns; wrench_ is empty when there is none
 };
 
 // {"p_1_pa", ...} from "p_", "_pa".

@@ -1,34 +1,24 @@
 #include "map_arguments.h"
 
 #include <cmath>
-#include <cstdlib>
+#include <optional>
+
+#include "csv_table.h"
 
 namespace live_stiffness {
 
-bool readNumbers(const std::string& text, char separator, std::vector<double>& numbers) {
-  const char* rest = text.c_str();
-  while (true) {
-    char* end = nullptr;
-    numbers.push_back(std::strtod(rest, &end));
-    if (end == rest) return false;
-    if (*end == '\0') return true;
-    if (*end != separator) return false;
-    rest = end + 1;
-  }
-}
-
 std::vector<PressureRange> readRanges(const MapArguments& arguments, FaultList& faults) {
   std::vector<PressureRange> ranges;
-  const size_t wanted = arguments.random > 0 ? 2 : 3;
+  const bool needs_count = arguments.random == 0;
   for (const std::string& text : arguments.pressures) {
-    std::vector<double> numbers;
-    const bool good =
-        readNumbers(text, ':', numbers) && (numbers.size() == 3 || numbers.size() == wanted) &&
-        (numbers.size() < 3 || (numbers[2] >= 1.0 && numbers[2] <= 1e9 && numbers[2] == std::floor(numbers[2])));
-    if (good) ranges.push_back({numbers[0], numbers[1], numbers.size() > 2 ? static_cast<long>(numbers[2]) : 1});
+    const std::vector<double> numbers = numberList(text, ':').value_or(std::vector<double>());
+    const double count = numbers.size() == 3 ? numbers[2] : 1.0;
+    if ((numbers.size() == 3 || (numbers.size() == 2 && !needs_count)) && count >= 1.0 && count <= 1e9 &&
+        count == std::floor(count))
+      ranges.push_back({numbers[0], numbers[1], static_cast<long>(count)});
     else
       faults.add("pressures = " + text + ": must be FROM:TO:COUNT, gauge pressures in Pa and a whole number from 1 to 1e9" +
-                 (wanted == 2 ? "; with --random FROM:TO will do" : "") + ", for example 0:1e5:21");
+                 (needs_count ? "" : "; with --random FROM:TO will do") + ", for example 0:1e5:21");
   }
   return ranges;
 }
@@ -36,16 +26,13 @@ std::vector<PressureRange> readRanges(const MapArguments& arguments, FaultList& 
 ChannelMap readChannels(const MapArguments& arguments, int chambers) {
   if (arguments.channel_of_chamber.empty())
     return ChannelMap::even(arguments.channels > 0 ? arguments.channels : chambers, chambers);
-  std::vector<double> numbers;
   std::vector<int> channels;
-  bool good = readNumbers(arguments.channel_of_chamber, ',', numbers);
-  for (double number : numbers) {
-    good = good && number >= 0.0 && number < ChannelMap::kMaxChannels && number == std::floor(number);
-    channels.push_back(good ? static_cast<int>(number) : 0);
+  for (double number : numberList(arguments.channel_of_chamber, ',').value_or(std::vector<double>{-1.0})) {
+    if (!(number >= 0.0 && number < ChannelMap::kMaxChannels && number == std::floor(number)))
+      throw ConfigurationError("options", {"channel-of-chamber = " + arguments.channel_of_chamber +
+                                           ": must be the channel of each chamber from 0, for example 0,0,1,1,2,2"});
+    channels.push_back(static_cast<int>(number));
   }
-  if (!good)
-    throw ConfigurationError("options", {"channel-of-chamber = " + arguments.channel_of_chamber +
-                                         ": must be the channel of each chamber from 0, for example 0,0,1,1,2,2"});
   return ChannelMap(channels);
 }
 

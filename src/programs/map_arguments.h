@@ -1,5 +1,5 @@
 #pragma once
-// Arguments of stiffness_map, and how it reads lists of numbers.
+// Arguments of stiffness_map.
 
 #include <cstdint>
 #include <string>
@@ -12,7 +12,7 @@
 namespace live_stiffness {
 
 struct MapArguments {
-  std::string scene, model, stepping, criterion = "largest_eigenstiffness", compliance = "tangent", output = "-", npy;
+  std::string scene, model, stepping, criterion = "largest_eigenstiffness", compliance = "tangent", output = "-";
   std::string channel_of_chamber, find, direction = "x", at;
   std::vector<std::string> pressures;
   double accuracy = 1e-6, max_bar = 1.0, tolerance_mm = 0.1;
@@ -20,9 +20,6 @@ struct MapArguments {
   std::uint64_t seed = 1;
   int channels = 0, threads = 0, starts = 24;
 };
-
-// Numbers between separators; false if any part of the text is not a number.
-bool readNumbers(const std::string& text, char separator, std::vector<double>& numbers);
 
 // Of --pressures; faults are added.
 std::vector<PressureRange> readRanges(const MapArguments& arguments, FaultList& faults);

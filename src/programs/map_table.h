@@ -1,5 +1,5 @@
 #pragma once
-// The output of stiffness_map: a CSV, and optionally the same as a NumPy array.
+// The output of stiffness_map, a CSV.
 
 #include <cstdio>
 #include <memory>
@@ -15,27 +15,24 @@ namespace live_stiffness {
 // its columns, empty.
 class MapTable {
  public:
-  // Starts the files; npy_path empty: no array. Throws ConfigurationError if one cannot be written.
-  MapTable(const std::string& csv_path, const std::string& npy_path, const PressurePlan& plan,
-           const StiffnessCriterion& criterion);
+  // Starts the file; path -: standard output. Throws ConfigurationError if it cannot be written.
+  MapTable(const std::string& path, const PressurePlan& plan, const StiffnessCriterion& criterion);
   ~MapTable();
   MapTable(const MapTable&) = delete;
   MapTable& operator=(const MapTable&) = delete;
 
   // Rows from `first` on; texts are made on all cores.
   void write(long first, const std::vector<SweepRow>& rows);
-  // Gives the files their names; without it none is left. Throws ConfigurationError if the disk did not take all.
+  // Gives the file its name; without it none is left. Throws ConfigurationError if the disk did not take all.
   void close();
 
  private:
   // Lines of the rows from begin to end, of which row 0 is number `first` of the plan.
   std::string textOf(long first, const std::vector<SweepRow>& rows, size_t begin, size_t end) const;
-  void writeArray(long first, const std::vector<SweepRow>& rows);
 
   const PressurePlan& plan_;
-  std::unique_ptr<PartFile> csv_part_, npy_part_;  // none: standard output, or not asked for
-  std::FILE* csv_ = nullptr;
-  std::FILE* npy_ = nullptr;
+  std::unique_ptr<PartFile> part_;  // none: standard output
+  std::FILE* file_ = stdout;
 };
 
 }  // namespace live_stiffness

@@ -1,9 +1,9 @@
 // parallel_solve SCENE.yaml [options] < lengths.csv > results.csv: a parallel continuum robot without a ROS master.
 
-#include <boost/program_options.hpp>
 #include <chrono>
 #include <iostream>
 
+#include "command_line.h"
 #include "live_stiffness/parallel/parallel_model.h"
 #include "live_stiffness/parallel/parallel_scene_file.h"
 #include "result_table.h"
@@ -14,8 +14,6 @@ using namespace live_stiffness;
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-constexpr int kExitOk = 0, kExitRowFailed = 1, kExitUsage = 2;
 
 // Points of every rod, evenly from base to platform.
 struct RodShapes {
@@ -39,18 +37,6 @@ struct RodShapes {
   }
 };
 
-ResultRow resultOf(const ParallelModel& model, const ParallelSolution& solution, Clock::time_point start) {
-  ResultRow row;
-  row.solve_us = std::chrono::duration<double, std::micro>(Clock::now() - start).count();
-  row.status = solution.status;
-  if (!row.status.ok()) row.fault = model.describe(row.status);
-  row.iterations = solution.iterations;
-  row.X = solution.X_BP;
-  row.compliance = solution.compliance;
-  row.material_compliance = solution.material_compliance;
-  return row;
-}
-
 // Rows do not depend on one another. Both return the number that failed.
 long solveLengths(const ParallelModel& model, const RodShapes& shapes) {
   InputTable table(std::cin, numberedColumns("l_", "_m", model.scene().rodCount()));
@@ -59,7 +45,8 @@ long solveLengths(const ParallelModel& model, const RodShapes& shapes) {
     const std::vector<double> lengths(input.values.data(), input.values.data() + input.values.size());
     workspace.reset();
     const auto start = Clock::now();
-    ResultRow row = resultOf(model, model.solve(lengths, input.wrench, workspace), start);
+    const ParallelSolution solution = model.solve(lengths, input.wrench, workspace);
+    ResultRow row = resultRow(model, solution, solution.X_BP, start);
     shapes.append(model, workspace, row);
     return row;
   });
@@ -77,12 +64,24 @@ long solvePoses(const ParallelModel& model, const RodShapes& shapes) {
     if (!(std::abs(q.norm() - 1.0) < 1e-3)) X_BP.R.setConstant(std::nan(""));  // refused as no rotation
     workspace.reset();
     const auto start = Clock::now();
-    ResultRow row = resultOf(model, model.solveForLengths(X_BP, input.wrench, workspace), start);
+    const ParallelSolution solution = model.solveForLengths(X_BP, input.wrench, workspace);
+    ResultRow row = resultRow(model, solution, solution.X_BP, start);
     for (double length : workspace.lengths()) row.more.push_back(length);
     shapes.append(model, workspace, row);
     return row;
   });
 }
+
+const char* const kHelp =
+    "parallel_solve SCENE.yaml [options] < lengths.csv > results.csv\n\n"
+    "In:  header l_1_m,...,l_N_m (length of each rod between base and platform, in the order of the\n"
+    "     scene) and optionally fx_n,fy_n,fz_n,mx_nm,my_nm,mz_nm (dead wrench on the platform at its\n"
+    "     origin, base axes). With --inverse x_m,y_m,z_m,qw,qx,qy,qz instead of the lengths.\n"
+    "Out: status,iterations,solve_us, platform position and quaternion, then the tangent (c_ij) and the\n"
+    "     material compliance by (53) (material_ij) of the platform's origin, row by row, SI, linear part\n"
+    "     first, base axes. With --inverse then l_1_m,...,l_N_m. With --points then\n"
+    "     r1_1_x_m, ...: rod 1, point 1, in the base.\n"
+    "Exit status: 0 all rows solved, 1 some failed (see standard error), 2 nothing could be done.\n\n";
 
 }  // namespace
 
@@ -91,33 +90,14 @@ int main(int argc, char** argv) {
   ParallelOptions parallel_options;
   double accuracy = parallel_options.accuracy;
   int points = 0;
-  po::options_description options("Options");
+  po::options_description options = helpOption();
   options.add_options()
-    ("help,h", "print this and exit")
     ("inverse", "read platform poses and find the lengths of six rods")
     ("accuracy", po::value(&accuracy)->default_value(accuracy, "1e-9"), "relative, of pose and compliance")
     ("points", po::value(&points)->default_value(points),
      "also this number of points of every rod, at equal distances from base to platform")
     ("scene", po::value(&scene_path)->required(), "scene file of kind parallel");
-  po::positional_options_description positional;
-  positional.add("scene", 1);
-  try {
-    po::variables_map values;
-    po::store(po::command_line_parser(argc, argv).options(options).positional(positional).run(), values);
-    if (values.count("help")) {
-      std::cout << "parallel_solve SCENE.yaml [options] < lengths.csv > results.csv\n\n"
-                   "In:  header l_1_m,...,l_N_m (length of each rod between base and platform, in the order of the\n"
-                   "     scene) and optionally fx_n,fy_n,fz_n,mx_nm,my_nm,mz_nm (dead wrench on the platform at its\n"
-                   "     origin, base axes). With --inverse x_m,y_m,z_m,qw,qx,qy,qz instead of the lengths.\n"
-                   "Out: status,iterations,solve_us, platform position and quaternion, then the tangent (c_ij) and the\n"
-                   "     material compliance by (53) (material_ij) of the platform's origin, row by row, SI, linear part\n"
-                   "     first, base axes. With --inverse then l_1_m,...,l_N_m. With --points then\n"
-                   "     r1_1_x_m, ...: rod 1, point 1, in the base.\n"
-                   "Exit status: 0 all rows solved, 1 some failed (see standard error), 2 nothing could be done.\n\n"
-                << options;
-      return kExitOk;
-    }
-    po::notify(values);
+  return runProgram({argv, argv + argc}, kHelp, options, {{"scene", 1}}, [&](const po::variables_map& values) {
     parallel_options.accuracy = accuracy;
     if (points != 0 && (points < 2 || points > 1000))
       throw ConfigurationError("options", {"points = " + std::to_string(points) + ": must be 0 or from 2 to 1000"});
@@ -126,9 +106,6 @@ int main(int argc, char** argv) {
     const ParallelModel model(loadParallelSceneFile(scene_path), parallel_options);
     std::ios::sync_with_stdio(false);
     const long failed = values.count("inverse") ? solvePoses(model, shapes) : solveLengths(model, shapes);
-    return failed > 0 ? kExitRowFailed : kExitOk;
-  } catch (const std::exception& error) {
-    std::cerr << "parallel_solve: " << error.what() << "\nSee parallel_solve --help.\n";
-    return kExitUsage;
-  }
+    return failed > 0 ? kExitPartly : kExitOk;
+  });
 }

@@ -3,44 +3,36 @@
 #include <filesystem>
 #include <iostream>
 
-#include "live_stiffness/checks.h"
 #ifdef LIVE_STIFFNESS_WITH_BAGS
 #include "bags/recorded_bag.h"
 #endif
 
 namespace live_stiffness {
-namespace {
 
-bool isBag(const std::string& path) { return std::filesystem::path(path).extension() == ".bag"; }
+void RecordingReader::addOptionsTo([[maybe_unused]] boost::program_options::options_description& options) {
+#ifdef LIVE_STIFFNESS_WITH_BAGS
+  bag_.addTo(options);
+#endif
+}
 
-Recording withWarningsPrinted(Recording recording, const std::string& path) {
+Recording RecordingReader::load(const std::string& path) const {
+  const bool is_bag = std::filesystem::path(path).extension() == ".bag";
+#ifdef LIVE_STIFFNESS_WITH_BAGS
+  FaultList faults("options");
+  const BagFormat format = bag_.format(faults);
+  faults.throwIfAny();
+  Recording recording = is_bag ? loadRecordedBag(path, format) : loadRecording(path);
+#else
+  if (is_bag) throw ConfigurationError("recording " + path, {"this build reads no bags: build it with ROS (-DWITH_ROS=ON)"});
+  Recording recording = loadRecording(path);
+#endif
   for (const std::string& warning : recording.warnings) std::cerr << path << ": " << warning << '\n';
   return recording;
 }
 
-}  // namespace
-
-#ifdef LIVE_STIFFNESS_WITH_BAGS
-
-void RecordingReader::addOptionsTo(boost::program_options::options_description& options) { bag_.addTo(options); }
-
-Recording RecordingReader::load(const std::string& path) const {
-  FaultList faults("options");
-  const BagFormat format = bag_.format(faults);
-  faults.throwIfAny();
-  return withWarningsPrinted(isBag(path) ? loadRecordedBag(path, format) : loadRecording(path), path);
+SampleChoice sampleChoice(const std::string& name, FaultList& faults) {
+  if (name != "all" && name != "quasi_static") faults.add("samples '" + name + "': must be all or quasi_static");
+  return name == "all" ? SampleChoice::kAll : SampleChoice::kQuasiStatic;
 }
-
-#else
-
-void RecordingReader::addOptionsTo(boost::program_options::options_description&) {}
-
-Recording RecordingReader::load(const std::string& path) const {
-  if (isBag(path))
-    throw ConfigurationError("recording " + path, {"this build reads no bags: build it with ROS (-DWITH_ROS=ON)"});
-  return withWarningsPrinted(loadRecording(path), path);
-}
-
-#endif
 
 }  // namespace live_stiffness

@@ -4,6 +4,8 @@
 #include <boost/program_options.hpp>
 #include <string>
 
+#include "calibration/calibration.h"
+#include "live_stiffness/checks.h"
 #include "live_stiffness/estimation/recording.h"
 #ifdef LIVE_STIFFNESS_WITH_BAGS
 #include "bag_options.h"
@@ -24,5 +26,8 @@ class RecordingReader {
   BagOptions bag_;
 #endif
 };
+
+// all or quasi_static; adds a fault for any other name.
+SampleChoice sampleChoice(const std::string& name, FaultList& faults);
 
 }  // namespace live_stiffness

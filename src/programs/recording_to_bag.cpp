@@ -1,8 +1,8 @@
 // recording_to_bag RECORDING.csv OUT.bag [--scene SCENE.yaml --registration OUT.yaml]: CSV recording to bag, no master.
 
-#include <boost/program_options.hpp>
 #include <iostream>
 
+#include "command_line.h"
 #include "live_stiffness/compliance/stiffness_model.h"
 #include "live_stiffness/estimation/recording.h"
 #include "live_stiffness/estimation/registration_fit.h"
@@ -56,29 +56,23 @@ void registerRecording(const Recording& recording, const std::vector<Pressures>&
                        "Fitted by recording_to_bag to " + recording.name + " with scene " + scene_path + ":\n" + error);
 }
 
+const char* const kHelp =
+    "recording_to_bag RECORDING.csv OUT.bag [--scene SCENE.yaml --registration OUT.yaml]\n\n"
+    "Topics: chamber_pressures (gauge: less the mean of the first 0.5 s when absolute), aurora_pose,\n"
+    "tip_force_torque when there is a force sensor.\n\n";
+
 }  // namespace
 
 int main(int argc, char** argv) {
   std::string recording_path, bag_path, scene_path, registration_path;
-  po::options_description options("Options");
+  po::options_description options = helpOption();
   options.add_options()
-    ("help,h", "print this and exit")
     ("recording", po::value(&recording_path)->required(), "CSV recording")
     ("bag", po::value(&bag_path)->required(), "bag to write")
     ("scene", po::value(&scene_path), "scene of the recorded robot, for --registration")
     ("registration", po::value(&registration_path), "also fit base and sensor to the recording and write them here");
-  po::positional_options_description positional;
-  positional.add("recording", 1).add("bag", 1);
-  try {
-    po::variables_map values;
-    po::store(po::command_line_parser(argc, argv).options(options).positional(positional).run(), values);
-    if (values.count("help")) {
-      std::cout << "recording_to_bag RECORDING.csv OUT.bag [--scene SCENE.yaml --registration OUT.yaml]\n\n"
-                   "Topics: chamber_pressures (gauge: less the mean of the first 0.5 s when absolute), aurora_pose,\n"
-                   "tip_force_torque when there is a force sensor.\n\n" << options;
-      return 0;
-    }
-    po::notify(values);
+  return runProgram({argv, argv + argc}, kHelp, options, {{"recording", 1}, {"bag", 1}},
+                    [&](const po::variables_map& values) {
     if (values.count("scene") != values.count("registration"))
       throw ConfigurationError("options", {"--scene and --registration belong together: give both or none"});
     const Recording recording = loadRecording(recording_path);
@@ -86,9 +80,6 @@ int main(int argc, char** argv) {
     const std::vector<Pressures> channels = gaugePressures(recording);
     writeBag(recording, channels, bag_path);
     if (!scene_path.empty()) registerRecording(recording, channels, scene_path, registration_path);
-    return 0;
-  } catch (const std::exception& error) {
-    std::cerr << "recording_to_bag: " << error.what() << "\nSee recording_to_bag --help.\n";
-    return 2;
-  }
+    return kExitOk;
+  });
 }

@@ -1,9 +1,9 @@
 // register_recording SCENE.yaml RECORDING OUT.yaml: where the base stands in the tracker's frame and where the sensor
 // sits on the tip, from a recording, with residuals and a verdict whether the data determine it.
 
-#include <boost/program_options.hpp>
 #include <iostream>
 
+#include "command_line.h"
 #include "calibration/calibration.h"
 #include "calibration/calibration_report.h"
 #include "live_stiffness/checks.h"
@@ -15,8 +15,6 @@ namespace po = boost::program_options;
 using namespace live_stiffness;
 
 namespace {
-
-constexpr int kExitOk = 0, kExitNotDetermined = 1, kExitUsage = 2;
 
 const char* const kHelp =
     "register_recording SCENE.yaml RECORDING.csv|.bag OUT.yaml [--samples all|quasi_static] [--fit-delay]\n\n"
@@ -43,8 +41,7 @@ int run(const std::string& scene_path, const RecordingReader& reader, const std:
         const std::string& samples, bool orientation, double tracker_delay, bool fit_delay) {
   FaultList faults("options");
   faults.check("tracker-delay-s", tracker_delay, {-Registration::kLargestDelay, Registration::kLargestDelay});
-  if (samples != "all" && samples != "quasi_static")
-    faults.add("samples '" + samples + "': must be all or quasi_static");
+  const SampleChoice choice = sampleChoice(samples, faults);
   faults.throwIfAny();
   CalibrationOptions options;
   options.model.stepping = Stepping::kContinuous;
@@ -53,9 +50,7 @@ int run(const std::string& scene_path, const RecordingReader& reader, const std:
   const Recording recording = reader.load(recording_path);
   const ChannelMap channels = ChannelMap::even(recording.channelCount(), scene.chamberCount());
   const auto registered = [&](double delay) {
-    const CalibrationRecording data(withTrackerDelay(recording, delay),
-                                    samples == "all" ? SampleChoice::kAll : SampleChoice::kQuasiStatic,
-                                    LoadedSamples::kIgnore);
+    const CalibrationRecording data(withTrackerDelay(recording, delay), choice, LoadedSamples::kIgnore);
     return calibrate(scene, channels, {}, {data}, {}, options);
   };
   CalibrationResult result = registered(tracker_delay);
@@ -75,7 +70,7 @@ int run(const std::string& scene_path, const RecordingReader& reader, const std:
   registration.tracker_delay = tracker_delay;
   saveRegistrationFile(output_path, registration,
                        "register_recording: " + recording_path + " with scene " + scene_path + "\n" + report);
-  return result.recordings[0].determined && found.determined ? kExitOk : kExitNotDetermined;
+  return result.recordings[0].determined && found.determined ? kExitOk : kExitPartly;
 }
 
 }  // namespace
@@ -85,9 +80,8 @@ int main(int argc, char** argv) {
   bool no_orientation = false, fit_delay = false;
   double tracker_delay = 0.0;
   RecordingReader reader;
-  po::options_description options("Options");
+  po::options_description options = helpOption();
   options.add_options()
-    ("help,h", "print this and exit")
     ("scene", po::value(&scene)->required(), "scene of the recorded robot")
     ("recording", po::value(&recording)->required(), "CSV recording, or a bag")
     ("output", po::value(&output)->required(), "registration file to write")
@@ -96,19 +90,8 @@ int main(int argc, char** argv) {
     ("tracker-delay-s", po::value(&tracker_delay)->default_value(0.0), "delay of the tracker relative to the pressures")
     ("fit-delay", po::bool_switch(&fit_delay), "fit that delay too, to the samples in motion");
   reader.addOptionsTo(options);
-  po::positional_options_description positional;
-  positional.add("scene", 1).add("recording", 1).add("output", 1);
-  try {
-    po::variables_map values;
-    po::store(po::command_line_parser(argc, argv).options(options).positional(positional).run(), values);
-    if (values.count("help")) {
-      std::cout << kHelp << options;
-      return kExitOk;
-    }
-    po::notify(values);
+  return runProgram({argv, argv + argc}, kHelp, options, {{"scene", 1}, {"recording", 1}, {"output", 1}},
+                    [&](const po::variables_map&) {
     return run(scene, reader, recording, output, samples, !no_orientation, tracker_delay, fit_delay);
-  } catch (const std::exception& error) {
-    std::cerr << "register_recording: " << error.what() << "\nSee register_recording --help.\n";
-    return kExitUsage;
-  }
+  });
 }

@@ -2,10 +2,10 @@
 
 #include <ros/package.h>
 
-#include <boost/program_options.hpp>
 #include <filesystem>
 #include <iostream>
 
+#include "command_line.h"
 #include "bag_options.h"
 #include "part_file.h"
 #include "live_stiffness/rod/scene_file.h"
@@ -15,14 +15,21 @@
 namespace po = boost::program_options;
 using namespace live_stiffness;
 
+namespace {
+
+const char* const kHelp =
+    "replay BAG [--scene SCENE.yaml] [options]\n\nWrites what stiffness_node would have published to a new "
+    "bag, and prints a report.\n\n";
+
+}  // namespace
+
 int main(int argc, char** argv) {
   std::string bag, out, scene, registration, report_path, model = "ncm";
   double accuracy = ModelOptions().accuracy;
   ReplayOptions replay;
   BagOptions bag_options(replay.format);
-  po::options_description options("Options");
+  po::options_description options = helpOption();
   options.add_options()
-    ("help,h", "print this and exit")
     ("bag", po::value(&bag)->required(), "bag to read")
     ("scene", po::value(&scene), "scene file of the robot (default: the package's paper_one_segment.yaml)")
     ("registration", po::value(&registration), "registration file (default: identity)")
@@ -35,17 +42,7 @@ int main(int argc, char** argv) {
     ("channel-of-chamber", po::value(&replay.channel_of_chamber)->multitoken(),
      "channel of each chamber, such as 0 0 1 1 2 2 (default: the bag's channels feed neighbours evenly)");
   bag_options.addTo(options);
-  po::positional_options_description positional;
-  positional.add("bag", 1);
-  try {
-    po::variables_map values;
-    po::store(po::command_line_parser(argc, argv).options(options).positional(positional).run(), values);
-    if (values.count("help")) {
-      std::cout << "replay BAG [--scene SCENE.yaml] [options]\n\nWrites what stiffness_node would have published to a new "
-                   "bag, and prints a report.\n\n" << options;
-      return 0;
-    }
-    po::notify(values);
+  return runProgram({argv, argv + argc}, kHelp, options, {{"bag", 1}}, [&](const po::variables_map&) {
     FaultList faults("options");
     ModelOptions model_options = namedModelOptions(model, "", faults);
     faults.check("accuracy", accuracy, {1e-13, 1e-2});
@@ -73,9 +70,6 @@ int main(int argc, char** argv) {
     const std::string text = report.text(bag, accuracy);
     std::cout << text << "\nestimates: " << out << "\n";
     if (!report_path.empty()) writeTextFile("report", report_path, text);
-    return 0;
-  } catch (const std::exception& error) {
-    std::cerr << "replay: " << error.what() << "\nSee replay --help.\n";
-    return 2;
-  }
+    return kExitOk;
+  });
 }

@@ -1,8 +1,8 @@
 // simulate_bag SCENE.yaml OUT.bag: what rig_simulator would publish, written to a bag without a master.
 
-#include <boost/program_options.hpp>
 #include <iostream>
 
+#include "command_line.h"
 #include "rig/rig_model.h"
 #include "live_stiffness/rod/scene_file.h"
 #include "bags/rig_bag.h"
@@ -10,6 +10,13 @@
 
 namespace po = boost::program_options;
 using namespace live_stiffness;
+
+namespace {
+
+const char* const kHelp =
+    "simulate_bag SCENE.yaml OUT.bag [options]\n\n";
+
+}  // namespace
 
 int main(int argc, char** argv) {
   std::string scene_path, bag_path, program = "triangle", registration_path;
@@ -19,9 +26,8 @@ int main(int argc, char** argv) {
   RigOptions rig_options;
   rig_options.drop_out_probability = 0.002;
   ContactOptions& contact = rig_options.contact;
-  po::options_description options("Options");
+  po::options_description options = helpOption();
   options.add_options()
-    ("help,h", "print this and exit")
     ("scene", po::value(&scene_path)->required(), "scene file")
     ("bag", po::value(&bag_path)->required(), "bag to write")
     ("program", po::value(&program)->default_value(program), "triangle, staircase or random_walk")
@@ -39,16 +45,7 @@ int main(int argc, char** argv) {
      "from push to push, each turned by 90 deg about z; 0: one push only")
     ("registration", po::value(&registration_path), "where base and sensor are (default: identity)")
     ("seed", po::value(&rig_options.seed)->default_value(rig_options.seed), "of everything random");
-  po::positional_options_description positional;
-  positional.add("scene", 1).add("bag", 1);
-  try {
-    po::variables_map values;
-    po::store(po::command_line_parser(argc, argv).options(options).positional(positional).run(), values);
-    if (values.count("help")) {
-      std::cout << "simulate_bag SCENE.yaml OUT.bag [options]\n\n" << options;
-      return 0;
-    }
-    po::notify(values);
+  return runProgram({argv, argv + argc}, kHelp, options, {{"scene", 1}, {"bag", 1}}, [&](const po::variables_map&) {
     FaultList faults("options");
     rig_options.program.kind = programKind(program, faults);
     faults.check("seconds", seconds, {0.1, 1e5});
@@ -73,9 +70,6 @@ int main(int argc, char** argv) {
       progress.update(i + 1);
     }
     bag.finish();
-    return 0;
-  } catch (const std::exception& error) {
-    std::cerr << "simulate_bag: " << error.what() << "\nSee simulate_bag --help.\n";
-    return 2;
-  }
+    return kExitOk;
+  });
 }

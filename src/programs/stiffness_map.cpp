@@ -1,14 +1,14 @@
 // stiffness_map SCENE.yaml [options]: stiffness over the workspace as a table, or the stiffest pressures for a point.
 
 #include <algorithm>
-#include <boost/program_options.hpp>
 #include <chrono>
-#include <cmath>
-#include <cstdlib>
 #include <ctime>
 #include <iostream>
 #include <limits>
+#include <optional>
 
+#include "command_line.h"
+#include "csv_table.h"
 #include "analysis/stiffness_finder.h"
 #include "live_stiffness/rod/scene_file.h"
 #include "map_arguments.h"
@@ -19,8 +19,6 @@ namespace po = boost::program_options;
 using namespace live_stiffness;
 
 namespace {
-
-constexpr int kExitOk = 0, kExitNotReached = 1, kExitUsage = 2;
 
 int sweep(const StiffnessModel& model, const ChannelMap& channels, const MapArguments& arguments) {
   FaultList faults("options");
@@ -34,7 +32,7 @@ int sweep(const StiffnessModel& model, const ChannelMap& channels, const MapArgu
                                 : PressurePlan::grid(ranges, channels);
   const StiffnessSweep sweep(model, plan, criterion,
                              arguments.compliance == "tangent" ? ComplianceKind::kTangent : ComplianceKind::kMaterial);
-  MapTable table(arguments.output, arguments.npy, plan, criterion);
+  MapTable table(arguments.output, plan, criterion);
   ProgressBar bar("stiffness_map", plan.rows());
   long failed = 0;
   double least = std::numeric_limits<double>::infinity(), most = -least;
@@ -85,8 +83,8 @@ int find(const StiffnessModel& model, const ChannelMap& channels, const MapArgum
   if (arguments.find != "stiffest" && arguments.find != "softest")
     faults.add("find = " + arguments.find + ": must be stiffest or softest");
   const Vector3 direction = directionNamed("direction", arguments.direction, faults);
-  std::vector<double> at;
-  if (!readNumbers(arguments.at, ',', at) || at.size() != 3)
+  const std::optional<std::vector<double>> at = numberList(arguments.at, ',');
+  if (!at || at->size() != 3)
     faults.add("at = " + (arguments.at.empty() ? "(missing)" : arguments.at) +
                ": must be a point x,y,z in m, base axes");
   faults.throwIfAny();
@@ -95,16 +93,16 @@ int find(const StiffnessModel& model, const ChannelMap& channels, const MapArgum
   options.tolerance = 1e-3 * arguments.tolerance_mm;
   options.starts = arguments.starts;
   options.seed = arguments.seed;
-  const FinderResult result = findPressures(model, channels, {at[0], at[1], at[2]}, direction, options);
+  const FinderResult result = findPressures(model, channels, Eigen::Map<const Vector3>(at->data()), direction, options);
   if (!result.solvable) {
     std::puts("reached: false  # no configuration within the pressures has a stable equilibrium");
-    return kExitNotReached;
+    return kExitPartly;
   }
   if (!result.reached) {
     std::printf("reached: false  # out of reach within 0 to %g bar, as far as %d starts tell; nearest found below\n",
                 arguments.max_bar, options.starts + 1);
     printFound("nearest", result.nearest);
-    return kExitNotReached;
+    return kExitPartly;
   }
   const bool stiffest = arguments.find == "stiffest";
   std::printf("reached: true\n");
@@ -133,9 +131,8 @@ const char kHelp[] =
 
 int main(int argc, char** argv) {
   MapArguments a;
-  po::options_description options("Options");
+  po::options_description options = helpOption();
   options.add_options()
-    ("help,h", "print this and exit")
     ("pressures", po::value(&a.pressures)->composing(),
      "FROM:TO:COUNT, gauge Pa, both ends included; once for all channels, or again for each")
     ("random", po::value(&a.random), "this number of random configurations within the ranges of --pressures, instead of a grid")
@@ -149,7 +146,6 @@ int main(int argc, char** argv) {
     ("compliance", po::value(&a.compliance)->default_value(a.compliance), "tangent (felt by a hand) or material (the "
                                                                           "paper's integral)")
     ("output,o", po::value(&a.output)->default_value(a.output), "CSV file; - is standard output")
-    ("npy", po::value(&a.npy), "the same as a NumPy structured array, status as number, NaN where there is no result")
     ("threads", po::value(&a.threads)->default_value(a.threads), "0: all cores")
     ("find", po::value(&a.find), "stiffest or softest")
     ("direction", po::value(&a.direction)->default_value(a.direction), "of --find, base axes")
@@ -164,10 +160,8 @@ int main(int argc, char** argv) {
     ("accuracy", po::value(&a.accuracy)->default_value(a.accuracy, "1e-6"),
      "relative, of pose and compliance; --find: at least 1e-10")
     ("scene", po::value(&a.scene)->required(), "scene file");
-  po::positional_options_description positional;
-  positional.add("scene", 1);
   // --max_bar is --max-bar, and --pressures was once called --grid.
-  std::vector<std::string> words(argv + 1, argv + argc);
+  std::vector<std::string> words(argv, argv + argc);
   const std::string former = "--grid";
   for (std::string& word : words) {
     if (word == former || word.compare(0, former.size() + 1, former + "=") == 0)
@@ -175,19 +169,7 @@ int main(int argc, char** argv) {
     if (word.compare(0, 2, "--") == 0)
       std::replace(word.begin(), word.begin() + std::min(word.find('='), word.size()), '_', '-');
   }
-  try {
-    po::variables_map values;
-    po::store(po::command_line_parser(words)
-                  .options(options)
-                  .positional(positional)
-                  .style(po::command_line_style::default_style & ~po::command_line_style::allow_guessing)
-                  .run(),
-              values);
-    if (values.count("help")) {
-      std::cout << kHelp << options;
-      return kExitOk;
-    }
-    po::notify(values);
+  return runProgram(words, kHelp, options, {{"scene", 1}}, [&](const po::variables_map& values) {
     FaultList faults("options");
     const bool finds = values.count("find") > 0;
     if (finds == (values.count("pressures") > 0)) faults.add("give either --pressures or --find");
@@ -204,8 +186,5 @@ int main(int argc, char** argv) {
     const StiffnessModel model(loadSceneFile(a.scene), model_options);
     const ChannelMap channels = readChannels(a, model.scene().chamberCount());
     return finds ? find(model, channels, a) : sweep(model, channels, a);
-  } catch (const std::exception& error) {
-    std::cerr << "stiffness_map: " << error.what() << "\nSee stiffness_map --help.\n";
-    return kExitUsage;
-  }
+  });
 }

@@ -1,11 +1,11 @@
 // stiffness_solve SCENE.yaml [options] < pressures.csv > results.csv: the model without a ROS master.
 
-#include <boost/program_options.hpp>
+#include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <iostream>
-#include <sstream>
+#include <optional>
 
+#include "command_line.h"
 #include "live_stiffness/analysis/deflection.h"
 #include "live_stiffness/rod/scene_file.h"
 #include "result_table.h"
@@ -16,8 +16,6 @@ using namespace live_stiffness;
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-constexpr int kExitOk = 0, kExitRowFailed = 1, kExitUsage = 2;
 
 // What the table has beyond the tip.
 struct Further {
@@ -67,42 +65,44 @@ long solveAll(const StiffnessModel& model, const Further& further, InputTable& t
       workspace.reset();
       return model.solve(input.values, wrench, workspace);
     };
-    ResultRow row;
     const auto start = Clock::now();
     const StiffnessSolution solution = solve(input.wrench);
-    row.solve_us = std::chrono::duration<double, std::micro>(Clock::now() - start).count();
-    row.status = solution.status;
-    row.iterations = solution.iterations;
-    row.X = solution.X_BT;
-    row.compliance = solution.compliance;
-    row.material_compliance = solution.material_compliance;
+    ResultRow row = resultRow(model, solution, solution.X_BT, start);
     if (row.status.ok() && !further.fractions.empty()) appendStations(model, workspace, further, row.more);
     if (row.status.ok() && further.deflection) {
       const StiffnessSolution free = solve(Wrench::Zero());
       row.status = free.status;
+      if (!free.status.ok()) row.fault = model.describe(free.status);
       for (const Matrix6& C : {free.compliance, free.material_compliance}) {
         const PredictedDeflection predicted = predictDeflection(free.X_BT, C, input.wrench);
         append(predicted.linear.p, row.more);
         append(predicted.exponential.p, row.more);
       }
     }
-    if (!row.status.ok()) row.fault = model.describe(row.status);
     return row;
   });
 }
 
 // Fractions such as 0.5,1.
 std::vector<double> readFractions(const std::string& text, FaultList& faults) {
-  std::vector<double> fractions;
-  std::istringstream words(text);
-  for (std::string word; std::getline(words, word, ',');) {
-    char* end = nullptr;
-    fractions.push_back(std::strtod(word.c_str(), &end));
-    if (word.empty() || *end != '\0' || !(fractions.back() >= 0.0 && fractions.back() <= 1.0))
-      faults.add("stations = " + text + ": must be fractions of a segment's length from 0 to 1, such as 0.5,0.75,1");
-  }
-  return fractions;
+  if (text.empty()) return {};
+  const std::optional<std::vector<double>> fractions = numberList(text, ',');
+  const auto isFraction = [](double value) { return value >= 0.0 && value <= 1.0; };
+  if (fractions && std::all_of(fractions->begin(), fractions->end(), isFraction)) return *fractions;
+  faults.add("stations = " + text + ": must be fractions of a segment's length from 0 to 1, such as 0.5,0.75,1");
+  return {};
 }
+
+const char* const kHelp =
+    "stiffness_solve SCENE.yaml [options] < pressures.csv > results.csv\n\n"
+    "In:  header p_1_pa,...,p_N_pa (gauge, one column per chamber, base to tip) and optionally\n"
+    "     fx_n,fy_n,fz_n,mx_nm,my_nm,mz_nm (dead wrench at the tip point, base axes).\n"
+    "Out: status,iterations,solve_us, tip position and quaternion, then the tangent (c_ij) and material\n"
+    "     compliance (material_ij) of the tip point, row by row, SI, linear part first, base axes.\n"
+    "     --stations: s1_0.5_x_m ... s1_0.5_qz, s1_0.5_material_11 ... of segment 1 at half its length\n"
+    "     (of what lies between base and there). --deflection: tangent_linear_x_m ...,\n"
+    "     tangent_exponential_x_m ..., material_linear_x_m ..., material_exponential_x_m ...\n"
+    "Exit status: 0 all rows solved, 1 some failed (see standard error), 2 nothing could be done.\n\n";
 
 }  // namespace
 
@@ -112,9 +112,8 @@ int main(int argc, char** argv) {
   ModelOptions defaults;
   double pressure_step_pa = defaults.pressure_step;
   double accuracy = defaults.accuracy;
-  po::options_description options("Options");
+  po::options_description options = helpOption();
   options.add_options()
-    ("help,h", "print this and exit")
     ("model", po::value(&model_name), "lpcc, npcc, lcm or ncm: the paper's shorthand for the two switches; the PCC "
                                       "pair ignores external loads, the linear pair steps once (default: ncm)")
     ("stepping", po::value(&stepping), "fixed_step, continuous or linear (default: as the model says)")
@@ -126,25 +125,7 @@ int main(int argc, char** argv) {
     ("deflection", po::bool_switch(&further.deflection),
      "also where (19) and its linear part predict the tip, from both compliances without the wrench")
     ("scene", po::value(&scene_path)->required(), "scene file");
-  po::positional_options_description positional;
-  positional.add("scene", 1);
-  try {
-    po::variables_map values;
-    po::store(po::command_line_parser(argc, argv).options(options).positional(positional).run(), values);
-    if (values.count("help")) {
-      std::cout << "stiffness_solve SCENE.yaml [options] < pressures.csv > results.csv\n\n"
-                   "In:  header p_1_pa,...,p_N_pa (gauge, one column per chamber, base to tip) and optionally\n"
-                   "     fx_n,fy_n,fz_n,mx_nm,my_nm,mz_nm (dead wrench at the tip point, base axes).\n"
-                   "Out: status,iterations,solve_us, tip position and quaternion, then the tangent (c_ij) and material\n"
-                   "     compliance (material_ij) of the tip point, row by row, SI, linear part first, base axes.\n"
-                   "     --stations: s1_0.5_x_m ... s1_0.5_qz, s1_0.5_material_11 ... of segment 1 at half its length\n"
-                   "     (of what lies between base and there). --deflection: tangent_linear_x_m ...,\n"
-                   "     tangent_exponential_x_m ..., material_linear_x_m ..., material_exponential_x_m ...\n"
-                   "Exit status: 0 all rows solved, 1 some failed (see standard error), 2 nothing could be done.\n\n"
-                << options;
-      return kExitOk;
-    }
-    po::notify(values);
+  return runProgram({argv, argv + argc}, kHelp, options, {{"scene", 1}}, [&](const po::variables_map&) {
     FaultList faults("options");
     ModelOptions model_options = namedModelOptions(model_name, stepping, faults);
     further.fractions = readFractions(stations, faults);
@@ -154,9 +135,6 @@ int main(int argc, char** argv) {
     const StiffnessModel model(loadSceneFile(scene_path), model_options);
     std::ios::sync_with_stdio(false);
     InputTable table(std::cin, numberedColumns("p_", "_pa", model.scene().chamberCount()));
-    return solveAll(model, further, table) > 0 ? kExitRowFailed : kExitOk;
-  } catch (const std::exception& error) {
-    std::cerr << "stiffness_solve: " << error.what() << "\nSee stiffness_solve --help.\n";
-    return kExitUsage;
-  }
+    return solveAll(model, further, table) > 0 ? kExitPartly : kExitOk;
+  });
 }

@@ -9,7 +9,7 @@
 #include <map>
 
 #include "live_stiffness/estimation/error_summary.h"
-#include "estimation/contact_score.h"
+#include "programs/contact_score.h"
 #include "estimation/interpolation.h"
 #include "ros/conversions.h"
 #include "support/contact_message.h"

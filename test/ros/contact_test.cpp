@@ -6,7 +6,7 @@
 
 #include <map>
 
-#include "estimation/contact_score.h"
+#include "programs/contact_score.h"
 #include "ros/conversions.h"
 #include "support/contact_message.h"
 #include "support/ros_wait.h"

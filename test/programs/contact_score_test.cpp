@@ -1,4 +1,4 @@
-#include "estimation/contact_score.h"
+#include "programs/contact_score.h"
 
 #include <gtest/gtest.h>
 

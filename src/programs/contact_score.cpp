@@ -1,4 +1,4 @@
-#include "estimation/contact_score.h"
+#include "contact_score.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -1,0 +1,90 @@
+#include "csv_table.h"
+
+#include <gtest/gtest.h>
+
+#include <clocale>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+
+namespace live_stiffness {
+namespace {
+
+// The faults of reading row after row, and the numbers of column "b".
+struct Read {
+  std::vector<double> numbers;
+  std::vector<std::string> faults;
+};
+Read readAll(CsvTable& table, int column) {
+  Read read;
+  for (std::string fault; table.next(fault);) {
+    const double number = fault.empty() ? table.number(column, fault) : 0.0;
+    if (fault.empty()) read.numbers.push_back(number);
+    else read.faults.push_back("line " + std::to_string(table.line()) + ": " + fault);
+  }
+  return read;
+}
+
+TEST(CsvTable, FindsNumbersByTheNameOfTheirColumn) {
+  std::istringstream text("\xEF\xBB\xBF" "a, b ,c\r\n1, -2.5e-3 ,3\r\n\n4,5,6");
+  CsvTable table(text);
+  FaultList faults("table");
+  const int column = table.require("b", faults);
+  EXPECT_TRUE(faults.empty());
+  EXPECT_EQ(readAll(table, column).numbers, std::vector<double>({-2.5e-3, 5.0}));
+}
+
+TEST(CsvTable, NamesLineColumnAndValueOfWhatItCannotRead) {
+  std::istringstream text("a,b\n1,2\n1\n\n1,two\n1,inf\n1,\n1,2 3\n");
+  CsvTable table(text);
+  EXPECT_EQ(readAll(table, *table.find("b")).faults,
+            std::vector<std::string>({"line 3: 1 fields: must be 2, as in the header", "line 5: b = 'two': must be a finite number",
+                                      "line 6: b = 'inf': must be a finite number", "line 7: b = '': must be a finite number",
+                                      "line 8: b = '2 3': must be a finite number"}));
+}
+
+TEST(CsvTable, SaysWhichColumnsAreMissingRepeatedAndUnknown) {
+  std::istringstream text("a,b,a,,d\n");
+  CsvTable table(text);
+  FaultList faults("table");
+  table.require("a", faults);
+  table.require("e", faults);
+  EXPECT_EQ(faults.faults(), std::vector<std::string>({"column a is given more than once", "column e is missing"}));
+  EXPECT_EQ(table.unknown(), std::vector<int>({1, 4}));
+}
+
+TEST(CsvTable, OfNothingHasNoColumnAndNoRow) {
+  std::istringstream text("\n \n");
+  CsvTable table(text);
+  std::string fault;
+  EXPECT_FALSE(table.find("a"));
+  EXPECT_FALSE(table.next(fault));
+}
+
+TEST(NumberList, IsAllNumbersOrNone) {
+  EXPECT_EQ(numberList("0.5, 1,-2", ','), std::vector<double>({0.5, 1.0, -2.0}));
+  for (const char* text : {"", "1,", "1,,2", "1:2", "1,nan", "1 2"}) EXPECT_FALSE(numberList(text, ',')) << text;
+}
+
+// In a German locale strtod() takes a comma, and stops at the point.
+TEST(FiniteNumber, HasAPointWhateverTheLocaleOfTheProcess) {
+  const std::filesystem::path folder = std::string(::testing::TempDir()) + "csv_table_locale";
+  std::filesystem::create_directories(folder);
+  const std::string command = "localedef -i de_DE -f UTF-8 " + (folder / "de_DE.UTF-8").string() + " 2>/dev/null";
+  if (std::system(command.c_str()) != 0) GTEST_SKIP() << "no localedef, or none of its sources (package locales)";
+  const char* const before = std::getenv("LOCPATH");
+  setenv("LOCPATH", folder.c_str(), 1);
+  const bool is_set = std::setlocale(LC_ALL, "de_DE.UTF-8") != nullptr;
+  const double with_point = std::strtod("1.5", nullptr);
+  const std::optional<double> number = finiteNumber("1.5"), comma = finiteNumber("1,5");
+  std::setlocale(LC_ALL, "C");
+  if (before == nullptr) unsetenv("LOCPATH");
+  std::filesystem::remove_all(folder);
+  ASSERT_TRUE(is_set);
+  ASSERT_EQ(with_point, 1.0) << "the locale is no German one";
+  EXPECT_EQ(number, 1.5);
+  EXPECT_FALSE(comma);
+}
+
+}  // namespace
+}  // namespace live_stiffness
