@@ -10,7 +10,7 @@
 namespace live_stiffness {
 namespace {
 
-// The faults of reading row after row, and the numbers of column "b".
+// What all rows of a table give.
 struct Read {
   std::vector<double> numbers;
   std::vector<std::string> faults;
@@ -38,8 +38,10 @@ TEST(CsvTable, NamesLineColumnAndValueOfWhatItCannotRead) {
   std::istringstream text("a,b\n1,2\n1\n\n1,two\n1,inf\n1,\n1,2 3\n");
   CsvTable table(text);
   EXPECT_EQ(readAll(table, *table.find("b")).faults,
-            std::vector<std::string>({"line 3: 1 fields: must be 2, as in the header", "line 5: b = 'two': must be a finite number",
-                                      "line 6: b = 'inf': must be a finite number", "line 7: b = '': must be a finite number",
+            std::vector<std::string>({"line 3: 1 fields: must be 2, as in the header",
+                                      "line 5: b = 'two': must be a finite number",
+                                      "line 6: b = 'inf': must be a finite number",
+                                      "line 7: b = '': must be a finite number",
                                       "line 8: b = '2 3': must be a finite number"}));
 }
 
