@@ -1,6 +1,6 @@
 #pragma once
-// Reads stations from a backbone: from the collocation polynomials where these are accurate enough, else integrated
-// anew from the start of the element.
+// Reads stations from a backbone: from the collocation polynomials where these are accurate enough, else by a new
+// integration from the start of the element.
 
 #include "live_stiffness/compliance/stations.h"
 #include "rod/backbone.h"
@@ -26,7 +26,7 @@ class StationBatches {
   void read(const Backbone& backbone, int segment, const StationReading& reading, Station* out);
 
  private:
-  // Some that are in one element, and which they are.
+  // Stations in one element, and their indices.
   struct Batch {
     int element;
     int station[kStationBatch];

@@ -1,5 +1,5 @@
 #pragma once
-// What a StiffnessWorkspace holds.
+// Contents of a StiffnessWorkspace.
 
 #include "live_stiffness/compliance/stiffness_model.h"
 #include "rod/statics.h"

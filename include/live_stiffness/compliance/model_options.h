@@ -14,7 +14,7 @@ namespace live_stiffness {
 //   stepping = kLinear                  LPCC                        LCM
 //   stepping = kFixedStep               NPCC                        NCM
 //
-// kContinuous, the limit of small steps, may stand for kFixedStep in both.
+// kContinuous, the limit of small steps, can replace kFixedStep in both.
 struct ModelOptions {
   bool external_loads = true;  // false: weight and tip wrench are ignored (piecewise constant curvature)
   Stepping stepping = Stepping::kFixedStep;

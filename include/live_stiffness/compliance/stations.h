@@ -1,5 +1,5 @@
 #pragma once
-// Stations: sections of a solved backbone, with what is known there.
+// Stations: sections of a solved backbone, with their pose, stretch and compliance.
 
 #include <memory>
 #include <vector>
@@ -18,8 +18,8 @@ struct Station {
 
 class StationBatches;  // of the library, see src/compliance/station_reader.h
 
-// Stations at fixed fractions of a segment, in any order; see StiffnessModel::stations(). It remembers which elements
-// they are in and their weights there, which takes as long to find as to read them: keep one for each segment.
+// Stations at fixed fractions of a segment, in any order; see StiffnessModel::stations(). It stores the element of each station
+// and its interpolation weights, which are expensive to compute; so keep one plan for each segment.
 class StationPlan {
  public:
   // 0 to 1; below 0, or NaN, is the segment's base, above 1 its end.

@@ -1,7 +1,7 @@
 #pragma once
 // The incremental nonlinear Cosserat compliance model of Shi et al.: chamber pressures and tip wrench in, tip pose and
 // 6x6 compliance out. A scene without weight and without a tip wrench takes the closed form; the boundary value solver
-// is touched only when something external acts.
+// runs only when an external load acts. An example of its use: examples/solve.cpp.
 
 #include <memory>
 #include <string>
@@ -23,11 +23,11 @@ enum class SolveCode {
   kInvalidInput = 1,  // wrong channel count, or a value that is not finite or not physical
   kOutOfRange = 2,    // the pressures stretch a section beyond the range where it has positive area
   kNotConverged = 3,  // no equilibrium found within the bound on iterations
-  kUnstable = 4,      // only an unstable equilibrium was found: the robot would topple, is at the brink of it, or may
-                      // lean in any direction (a symmetric column beyond buckling: no finite compliance)
+  kUnstable = 4,      // only an unstable or neutral equilibrium was found: the robot would topple, or may lean in any
+                      // direction (a symmetric column beyond buckling: no finite compliance)
 };
 
-// Why a solve failed, without allocation; text() is for people.
+// Why a solve failed, without allocation; StiffnessModel::describe() makes a text of it.
 struct SolveStatus {
   SolveCode code = SolveCode::kOk;
   int index = -1;      // channel (kInvalidInput) or segment (kOutOfRange) concerned; -1: none
@@ -41,10 +41,10 @@ const char* codeName(SolveCode code);
 
 struct StiffnessSolution {
   SolveStatus status;  // unless ok, nothing below holds
-  int iterations = 0;  // passes over the chain; 0: closed form
-  bool buckled = false;  // the robot's shape was seen to lose its stability as the loads grew, and this is the stable one
-                         // that it gives way to; so a small change of load may have moved it far
-  double numerical_error = 0.0;  // estimated relative error of pose and compliance, an upper estimate
+  int iterations = 0;  // over the chain; 0: closed form
+  bool buckled = false;  // the equilibrium that starts at zero load lost its stability as the loads grew; this is the stable
+                         // one that follows, which may be far away from it
+  double numerical_error = 0.0;  // estimated upper bound of the relative error of pose and compliance
   Pose X_BT;                     // tip point, m
   Matrix6 compliance;            // tangent, of T under a dead wrench at T, base axes
   Matrix6 material_compliance;   // (10) about T, base axes
@@ -54,7 +54,7 @@ struct StiffnessSolution {
  private:
   friend class StiffnessModel;
   struct Unset {};
-  explicit StiffnessSolution(Unset) {}  // every solve would write 72 zeros for nothing
+  explicit StiffnessSolution(Unset) {}  // skips 72 zeros that every solve would overwrite
   void clearCompliances() { compliance.setZero(), material_compliance.setZero(); }
 };
 
@@ -98,10 +98,10 @@ class StiffnessModel {
 
   // Station of the last successful solve in the workspace. segment: 0 to segmentCount() - 1; fraction: 0 to 1.
   Station station(const StiffnessWorkspace& workspace, int segment, double fraction) const;
-  // The same for several at once, quicker. out: plan.size() of them. Never allocates.
+  // The same for several at once, which is faster. out: plan.size() of them. Never allocates.
   void stations(const StiffnessWorkspace& workspace, int segment, StationPlan& plan, Station* out) const;
 
-  // A status in words, with the offending value, its legal range and the way out.
+  // A status as text, with the offending value, its legal range and a remedy.
   std::string describe(const SolveStatus& status) const;
 
  private:

@@ -17,8 +17,8 @@ struct ParallelOptions {
 
 struct ParallelSolution {
   SolveStatus status;    // unless ok, nothing below holds; index: rod concerned
-  int iterations = 0;    // passes over all rods
-  double numerical_error = 0.0;  // estimated relative error of pose and compliance, an upper estimate
+  int iterations = 0;    // over all rods
+  double numerical_error = 0.0;  // estimated upper bound of the relative error of pose and compliance
   Pose X_BP;                     // platform, m
   Matrix6 compliance = Matrix6::Zero();           // tangent, of P under a dead wrench at P, base axes
   Matrix6 material_compliance = Matrix6::Zero();  // about P by (53): inverse of the sum of the rods' tip stiffnesses
@@ -56,8 +56,8 @@ class ParallelModel {
   const ParallelOptions& options() const { return options_; }
   ParallelWorkspace makeWorkspace() const;
 
-  // Solves for rod lengths (m, one a rod, in the order of the scene) and a dead wrench at P (base axes) beside the
-  // platform's weight. Never throws and never allocates; a failure is a status.
+  // Solves for rod lengths (m, one for each rod, in the order of the scene) and a dead wrench at P (base axes), in addition
+  // to the platform's weight. Never throws and never allocates; a failure is a status.
   ParallelSolution solve(const std::vector<double>& lengths, const Wrench& wrench, ParallelWorkspace& workspace) const;
 
   // The lengths that hold the platform at X_BP under the wrench: those of the workspace afterwards.
@@ -69,7 +69,7 @@ class ParallelModel {
   void stations(const ParallelWorkspace& workspace, int rod, const std::vector<double>& fractions,
                 std::vector<Pose>& out) const;
 
-  // A status in words, with the offending value, its legal range and the way out.
+  // A status as text, with the offending value, its legal range and a remedy.
   std::string describe(const SolveStatus& status) const;
 
  private:

@@ -11,8 +11,8 @@ namespace live_stiffness {
 // Elastomer tube of incompressible area change (16): at stretch lam, A_solid ~ 1/lam, lengths in the section ~
 // 1/sqrt(lam), chambers of constant radius. Shi et al. (24), with two choices stated:
 //  - bending uses the full tensor of second moments about the backbone, so that any chamber layout is allowed
-//    (for the paper's it is isotropic and equals (24)); the shift of the area centroid of a lopsided layout, a
-//    coupling of stretch and bending, is left out;
+//    (for the paper's it is isotropic and equals (24)); the shift of the area centroid of an asymmetric layout,
+//    which couples stretch and bending, is neglected;
 //  - torsion uses J = I_x + I_y (pi r_P^4 / 2 per chamber); (24) prints pi r_P^4 / 4, which is 0.4 % stiffer.
 template <class T>
 struct CrossSectionOf {

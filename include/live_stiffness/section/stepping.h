@@ -1,5 +1,5 @@
 #pragma once
-// How a segment's section is updated as its chambers fill, (2.3).
+// How a segment's section is updated while the pressures grow, (2.3).
 
 namespace live_stiffness {
 
