@@ -39,6 +39,9 @@ add_service_files(FILES
 )
 generate_messages(DEPENDENCIES geometry_msgs std_msgs)
 generate_dynamic_reconfigure_options(cfg/Stiffness.cfg)
+# It reads the header that defines the parameters.
+add_custom_command(OUTPUT ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_INCLUDE_DESTINATION}/StiffnessConfig.h APPEND
+  DEPENDS include/live_stiffness/parameters.h scripts/parameter_specs.py)
 
 set(libraries live_stiffness_core live_stiffness_parallel live_stiffness_ros)
 if(WITH_TOOLS)

@@ -197,8 +197,8 @@ class Force:
                 ("all channels", [], "", late, []), ("lateral force", LATERAL, "", late, []),
                 ("lateral force", mount, "sensor mounted as the fit to the pushes says", late, []),
                 ("lateral force", LATERAL, "delay of the tracker ignored", plain, []),
-                ("lateral force", LATERAL, "stiffness scale adapted: `--scale-deviation 0.1`", late, ["--scale-deviation", "0.1"]),
-                ("lateral force", LATERAL, "the same, `0.3`", late, ["--scale-deviation", "0.3"])):
+                ("lateral force", LATERAL, "stiffness scale adapted: `--stiffness-scale-deviation 0.1`", late, ["--stiffness-scale-deviation", "0.1"]),
+                ("lateral force", LATERAL, "the same, `0.3`", late, ["--stiffness-scale-deviation", "0.3"])):
             score = scores[label, option] = self.score(load_1, registration, *channels, *options)
             if not option and channels:
                 with open(self.path("forces.csv"), newline="") as file:

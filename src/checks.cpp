@@ -1,10 +1,9 @@
 #include "live_stiffness/checks.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <sstream>
-
-#include "live_stiffness/conventions.h"
 
 namespace live_stiffness {
 namespace {
@@ -38,12 +37,29 @@ std::string Range::text() const {
   return above + " and " + below;
 }
 
-Range Range::finite() { return {-kInfinity, kInfinity, true, true}; }
-Range Range::positive() { return {0.0, kInfinity, true, true}; }
-Range Range::nonnegative() { return {0.0, kInfinity, false, true}; }
+bool ChoiceParameter::has(const std::string& name) const {
+  return std::find(choices.begin(), choices.end(), name) != choices.end();
+}
 
 void FaultList::check(const std::string& name, double value, const Range& range) {
   if (!range.contains(value)) add(name + " = " + numberText(value) + ": must be " + range.text());
+}
+
+// Compared in SI, so that a bound in degrees is legal also when its radians are rounded.
+void FaultList::check(const NumberParameter& parameter, double value) {
+  Range range = parameter.range;
+  range.low *= parameter.unit;
+  range.high *= parameter.unit;
+  if (!range.contains(value))
+    add(parameter.key + (" = " + numberText(value / parameter.unit)) + ": must be " + parameter.range.text());
+}
+
+void FaultList::check(const ChoiceParameter& parameter, const std::string& value) {
+  if (parameter.has(value)) return;
+  std::string known;
+  for (const std::string& name : parameter.choices)
+    if (!name.empty()) known += (known.empty() ? "" : ", ") + name;
+  add(std::string(parameter.key) + " = " + value + ": must be one of " + known);
 }
 
 void FaultList::throwIfAny() const {

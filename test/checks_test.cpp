@@ -44,6 +44,25 @@ TEST(FaultList, ThrowsAllFaultsTogether) {
   }
 }
 
+TEST(FaultList, ChecksParametersInTheUnitOfTheirKeys) {
+  const NumberParameter angle{"angle_deg", 1.0, {0.0, 57.0}, "", Live::kNo, std::acos(-1.0) / 180.0};
+  const ChoiceParameter law{"law", "", {"", "gent", "yeoh"}, ""};
+  const NumbersParameter shares{"shares", {}, {0.0, 1.0}, ""};
+  FaultList faults("pump", "~");
+  faults.check(angle, 57.0 * angle.unit);  // a bound, rounded
+  faults.check(law, "");
+  faults.check(shares, std::vector<double>{0.0, 1.0});
+  EXPECT_TRUE(faults.empty());
+  faults.check(angle, 60.0 * angle.unit);
+  faults.check(angle, std::nan(""));
+  faults.check(law, "hooke");
+  faults.check(shares, std::vector<double>{0.5, 2.0});
+  EXPECT_EQ(faults.faults(), (std::vector<std::string>{"~angle_deg = 60: must be >= 0 and <= 57",
+                                                       "~angle_deg = nan: must be >= 0 and <= 57",
+                                                       "~law = hooke: must be one of gent, yeoh",
+                                                       "~shares[1] = 2: must be >= 0 and <= 1"}));
+}
+
 TEST(FaultList, WithoutFaultsDoesNotThrow) {
   FaultList faults("pump");
   faults.check("flow", 0.5, {0.0, 1.0});

@@ -6,18 +6,18 @@ namespace live_stiffness {
 namespace {
 
 // Prior of each parameter: sensors are mounted by eye, and the sensor's own clock may differ by about a sample. reach: bound
-// on the change in both directions; zero: bounds -1 and 1.
+// on the change in both directions; zero: the parameter's range.
 struct KnownNumber {
-  const char* name;
+  NumberParameter parameter;
   ParameterKind kind;
-  double sigma, reach, unit;
+  double sigma, reach;
 };
 constexpr KnownNumber kKnownNumbers[] = {
-    {"force_sensor_azimuth_deg", ParameterKind::kForceSensorAzimuth, 5.0 * kDegree, 30.0 * kDegree, kDegree},
-    {"force_sensor_height_m", ParameterKind::kForceSensorHeight, 0.02, 0.1, 1.0},
-    {"force_sensor_crosstalk_x", ParameterKind::kForceSensorCrosstalkX, 0.05, 0.0, 1.0},
-    {"force_sensor_crosstalk_y", ParameterKind::kForceSensorCrosstalkY, 0.05, 0.0, 1.0},
-    {"force_sensor_delay_s", ParameterKind::kForceSensorDelay, 0.05, 0.0, 1.0},
+    {kForceSensorAzimuth, ParameterKind::kForceSensorAzimuth, 5.0 * kDegree, 30.0 * kDegree},
+    {kForceSensorHeight, ParameterKind::kForceSensorHeight, 0.02, 0.1},
+    {kForceSensorCrosstalkX, ParameterKind::kForceSensorCrosstalkX, 0.05, 0.0},
+    {kForceSensorCrosstalkY, ParameterKind::kForceSensorCrosstalkY, 0.05, 0.0},
+    {kForceSensorDelay, ParameterKind::kForceSensorDelay, 0.05, 0.0},
 };
 
 // The member of the mount that a parameter names, or nullptr.
@@ -41,15 +41,15 @@ using MountJet = ceres::Jet<double, kNumbers>;
 std::optional<SceneParameter> forceSensorParameter(const std::string& name, const ForceSensorMount& mount) {
   ForceSensorMount numbers = mount;
   for (const KnownNumber& known : kKnownNumbers) {
-    if (name != known.name) continue;
+    if (name != known.parameter.key) continue;
     SceneParameter parameter;
     parameter.name = name;
     parameter.kind = known.kind;
     parameter.start = parameter.prior_mean = *numberOf(numbers, known.kind);
     parameter.prior_sigma = known.sigma;
-    parameter.low = known.reach > 0.0 ? parameter.start - known.reach : -1.0;
-    parameter.high = known.reach > 0.0 ? parameter.start + known.reach : 1.0;
-    parameter.unit = known.unit;
+    parameter.low = known.reach > 0.0 ? parameter.start - known.reach : known.parameter.range.low;
+    parameter.high = known.reach > 0.0 ? parameter.start + known.reach : known.parameter.range.high;
+    parameter.unit = known.parameter.unit;
     return parameter;
   }
   return std::nullopt;
@@ -58,7 +58,7 @@ std::optional<SceneParameter> forceSensorParameter(const std::string& name, cons
 const std::vector<std::string>& forceSensorParameterNames() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
-    for (const KnownNumber& known : kKnownNumbers) all.emplace_back(known.name);
+    for (const KnownNumber& known : kKnownNumbers) all.emplace_back(known.parameter.key);
     return all;
   }();
   return names;

@@ -8,8 +8,21 @@
 #include "calibration/scene_parameter.h"
 #include "estimation/interpolation.h"
 #include "live_stiffness/estimation/recording.h"
+#include "live_stiffness/parameters.h"
 
 namespace live_stiffness {
+
+// Numbers of the mount: what calibrate can fit, and options of programs.
+inline constexpr NumberParameter kForceSensorAzimuth{
+    "force_sensor_azimuth_deg", 0.0, Range::finite(), "turn of the force sensor about z of T", Live::kNo, kDegree};
+inline constexpr NumberParameter kForceSensorHeight{
+    "force_sensor_height_m", 0.0, Range::finite(), "its origin above T"};
+inline constexpr NumberParameter kForceSensorCrosstalkX{
+    "force_sensor_crosstalk_x", 0.0, {-1.0, 1.0},
+    "share of its fz that appears in fx (crosstalk, or a tilted axis), which is subtracted"};
+inline constexpr NumberParameter kForceSensorCrosstalkY{"force_sensor_crosstalk_y", 0.0, {-1.0, 1.0}, "the same in fy"};
+inline constexpr NumberParameter kForceSensorDelay{
+    "force_sensor_delay_s", 0.0, {-1.0, 1.0}, "delay of its readings relative to the pressures"};
 
 // Its axes F are turned about z of T, its origin is on that axis. T is double, or a type that carries derivatives.
 template <class T>
@@ -21,6 +34,15 @@ struct ForceSensorMountOf {
   // Shares of fz that appear in fx and fy, by crosstalk or because its axis is tilted; they are subtracted, -.
   Vector2Of<T> crosstalk = Vector2Of<T>::Constant(T(0.0));
   T delay = T(0.0);      // s by which its readings are later than the pressures
+
+  template <class Mount, class Visit>
+  static void forEachParameter(Mount& mount, Visit&& visit) {
+    visit(kForceSensorAzimuth, mount.azimuth);
+    visit(kForceSensorHeight, mount.height);
+    visit(kForceSensorCrosstalkX, mount.crosstalk[0]);
+    visit(kForceSensorCrosstalkY, mount.crosstalk[1]);
+    visit(kForceSensorDelay, mount.delay);
+  }
 
   // Dead wrench at T in base axes of a reading [f; m] (its own axes and origin; N, N m), the tip oriented as R_BT. The
   // delay is not applied here.

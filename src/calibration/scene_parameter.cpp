@@ -5,6 +5,7 @@
 
 #include "calibration/parametric_scene.h"
 #include "live_stiffness/checks.h"
+#include "section/section_reader.h"
 
 namespace live_stiffness {
 namespace {
@@ -24,11 +25,13 @@ constexpr Known kKnown[] = {
     {"length_m", ParameterKind::kLength, 0.05, 0.0, 1e-3, 10.0, 1.0},
     {"chamber_pitch_radius_m", ParameterKind::kPitchRadius, 0.05, 0.0, 1e-5, 1.0, 1.0},
     {"chamber_radius_m", ParameterKind::kChamberRadius, 0.05, 0.0, 1e-5, 1.0, 1.0},
-    {"chamber_area_growth_per_pa", ParameterKind::kAreaGrowth, 0.0, 2e-6, -4.9e-6, 4.9e-6, 1.0},
+    {"chamber_area_growth_per_pa", ParameterKind::kAreaGrowth, 0.0, 2e-6, kAreaGrowthRange.low, kAreaGrowthRange.high,
+     1.0},
     {"gent_limit", ParameterKind::kGentLimit, 1.0, 0.0, 0.1, 1e4, 1.0},
     {"yeoh_c2", ParameterKind::kYeohC2, 0.0, 0.5, -2.0, 10.0, 1.0},
     {"yeoh_c3", ParameterKind::kYeohC3, 0.0, 0.5, -2.0, 10.0, 1.0},
-    {"pressure_stiffening", ParameterKind::kPressureStiffening, 0.0, 1.0, 0.0, 10.0, 1.0},
+    {"pressure_stiffening", ParameterKind::kPressureStiffening, 0.0, 1.0, kPressureStiffeningRange.low,
+     kPressureStiffeningRange.high, 1.0},
     {"creep_share", ParameterKind::kCreepShare, 0.0, 0.1, 0.0, 0.5, 1.0},
     {"creep_time_s", ParameterKind::kCreepTime, 1.0, 1.0, 0.2, 60.0, 1.0},
     {"tip_mass_kg", ParameterKind::kTipMass, 0.2, 1e-3, 0.0, 10.0, 1.0},

@@ -2,18 +2,17 @@
 
 namespace live_stiffness {
 
-ModelOptions namedModelOptions(const std::string& model, const std::string& stepping, FaultList& faults) {
-  ModelOptions options;
+ModelOptions namedModelOptions(const std::string& model, const std::string& stepping, FaultList& faults,
+                               ModelOptions options) {
   const bool is_linear_model = model == "lpcc" || model == "lcm";
   const bool is_nonlinear_model = model == "npcc" || model == "ncm";
-  if (!is_linear_model && !is_nonlinear_model && !model.empty())
-    faults.add("model = " + model + ": must be one of lpcc, npcc, lcm, ncm");
+  if (!model.empty()) faults.check(kModel, model);
+  faults.check(kStepping, stepping);
   options.external_loads = model != "lpcc" && model != "npcc";
 
   if (stepping == "fixed_step" || (stepping.empty() && !is_linear_model)) options.stepping = Stepping::kFixedStep;
   else if (stepping == "continuous") options.stepping = Stepping::kContinuous;
   else if (stepping == "linear" || stepping.empty()) options.stepping = Stepping::kLinear;
-  else faults.add("stepping = " + stepping + ": must be one of fixed_step, continuous, linear");
 
   const bool steps_linearly = options.stepping == Stepping::kLinear;
   if ((is_linear_model && !steps_linearly) || (is_nonlinear_model && steps_linearly))

@@ -38,8 +38,7 @@ StiffnessModel::StiffnessModel(Scene scene, ModelOptions options)
       chamber_count_(scene_.chamberCount()), has_weight_(scene_.hasWeight()) {
   FaultList faults("stiffness model");
   if (scene_.segmentCount() == 0) faults.add("chain: must hold at least one segment");
-  faults.check("pressure_step_pa", options_.pressure_step, {100.0, 1e7});
-  faults.check("accuracy", options_.accuracy, {1e-13, 1e-2});
+  faults.checkAll(options_);
   faults.throwIfAny();
   walk(
       scene_, [&](int, const Segment& segment) { steppers_.emplace_back(segment.section); }, [](const Link&) {});

@@ -12,8 +12,7 @@ namespace {
 
 EstimatorOptions checked(EstimatorOptions options) {
   FaultList faults("estimator");
-  faults.check("update_threshold_pa", options.update_threshold, Range::nonnegative());
-  for (double fraction : options.fractions) faults.check("ellipsoid_fractions", fraction, {0.0, 1.0});
+  faults.checkAll(options);
   faults.throwIfAny();
   return options;
 }

@@ -10,9 +10,15 @@
 namespace live_stiffness {
 namespace {
 
+// Poses farther than this from what is expected are left out, standard deviations: no noise does that, but a tracker that
+// takes something else for its sensor does. After so many in a row that agree with one another the robot is there.
+constexpr double kGate = 8.0;
+constexpr int kReaccept = 5;
+
 const TipWrenchOptions& checked(const TipWrenchOptions& options) {
   FaultList faults("tip wrench estimator");
-  options.check(faults);
+  faults.checkAll(options);
+  options.checkComponents(faults);
   faults.throwIfAny();
   return options;
 }
@@ -42,7 +48,7 @@ TipWrenchEstimator::TipWrenchEstimator(const Scene& scene, const ModelOptions& m
     : options_(checked(options)),
       filter_(std::make_unique<TipWrenchFilter>(scene, model_options, options_)),
       creep_(std::make_unique<SceneCreep>(scene)),
-      contact_(options.contact) {
+      contact_(options.contact_on_force) {
   reset();
 }
 
@@ -76,7 +82,7 @@ std::string TipWrenchEstimator::statusText() const {
     case TipWrenchCode::kRestarted: return "time jumped back by more than 1 s: estimation began anew";
     case TipWrenchCode::kOutlier:
       return "pose is " + numberText(estimate_.innovation) + " standard deviations from what was expected (gate " +
-             numberText(options_.gate) + "): left out; if it is right, raise the noise parameters or check the registration";
+             numberText(kGate) + "): left out; if it is right, raise the noise parameters or check the registration";
     case TipWrenchCode::kSolveFailed:
       if (!status_.ok()) return model().describe(status_) + "; the last good estimate is kept";
       return "the measurement update broke down; the last good estimate is kept";
@@ -116,7 +122,7 @@ bool TipWrenchEstimator::accept(PressuresRef pressures, double time) {
 
 // Beyond the gate, unless the last few agreed with one another: then the robot really is there.
 bool TipWrenchEstimator::isOutlier(const Pose& measured, double innovation) {
-  if (innovation <= options_.gate) {
+  if (innovation <= kGate) {
     outliers_ = 0;
     return false;
   }
@@ -125,7 +131,7 @@ bool TipWrenchEstimator::isOutlier(const Pose& measured, double innovation) {
   const bool agrees = outliers_ > 0 && moved.head<3>().norm() < kLargestMove && moved.tail<3>().norm() < kLargestTurn;
   outliers_ = agrees ? outliers_ + 1 : 1;
   last_outlier_ = measured;
-  if (outliers_ < options_.reaccept) return true;
+  if (outliers_ < kReaccept) return true;
   outliers_ = 0;
   return false;
 }
@@ -149,7 +155,7 @@ bool TipWrenchEstimator::step(PressuresRef pressures, const Pose* measured, doub
   bool outlier = false;
   if (measured != nullptr) {
     bool corrected = filter_->correct(*measured, prior, !contact, correction);
-    if (!contact && (!corrected || correction.innovation > options_.robust_from)) {
+    if (!contact && (!corrected || correction.innovation > TipWrenchFilter::kRobustFrom)) {
       // More than a free robot would do: as if contact had begun.
       const TipWrenchFilter::Belief touched = filter_->predicted(elapsed, pressure_change, true);
       corrected = filter_->correct(*measured, touched, false, correction);

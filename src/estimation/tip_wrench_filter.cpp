@@ -8,6 +8,20 @@
 namespace live_stiffness {
 namespace {
 
+// Without contact the wrench is small and soon forgotten, so that what lasts counts as model error.
+constexpr double kFreeForce = 0.05, kFreeMoment = 1e-3;  // N and N m
+constexpr double kFreeTime = 0.5;                        // s
+// In contact it walks freely up to the size that is expected: a force within some 1/25 s. A moment is that of such a
+// force at a short lever, since most that touches a tip touches it with a point.
+constexpr double kForceWalk = 5.0, kMomentWalk = 1.5;  // 1 / sqrt(s), of the size
+constexpr double kContactLever = 1.0 / 30.0;           // m
+// The model error outlasts any contact, so that a push that lasts does not turn into it; without contact it is free to
+// follow creep. Each change of pressure, by its 2-norm over the chambers, adds to it what the model may get wrong of it.
+constexpr double kErrorTime = 2.0, kErrorTimeInContact = 100.0;  // s
+constexpr double kErrorPositionPerPressure = 2e-8;               // m/Pa
+constexpr double kErrorRotationPerPressure = 5e-5 * kDegree;     // rad/Pa
+constexpr double kScaleWalk = 0.002;  // 1 / sqrt(s), of the logarithm of the stiffness scale: warming up takes minutes
+
 // Gauss-Markov process over `elapsed`: the value decays by the factor, and its variance tends to sigma^2.
 void relax(double& value, double& factor, double& noise, double sigma, double time, double elapsed) {
   factor = std::exp(-elapsed / time);
@@ -29,10 +43,10 @@ void TipWrenchFilter::reset() {
   x = State::Zero(size);
   P = StateMatrix::Zero(size, size);
   for (int k = 0; k < options_.components; ++k)
-    P(k, k) = std::pow(k < 3 ? options_.free_force : options_.free_moment, 2);
+    P(k, k) = std::pow(k < 3 ? kFreeForce : kFreeMoment, 2);
   P(scaleIndex(), scaleIndex()) = std::pow(options_.scale_deviation, 2);
   for (int k = 0; k < 6; ++k)
-    P(biasIndex() + k, biasIndex() + k) = std::pow(k < 3 ? options_.bias_position : options_.bias_rotation, 2);
+    P(biasIndex() + k, biasIndex() + k) = std::pow(modelErrorSize(k), 2);
   status_ = {};
   model_.setLogScale(0.0);
 }
@@ -72,20 +86,18 @@ TipWrenchFilter::Belief TipWrenchFilter::predicted(double elapsed, double pressu
   const int size = static_cast<int>(next.x.size());
   State factor = State::Ones(size), noise = State::Zero(size);
   for (int k = 0; k < options_.components; ++k) {
-    const double walk = k < 3 ? options_.force_walk : options_.moment_walk;
-    const double largest = k < 3 ? options_.contact_force : options_.contact_moment;
-    const double free = k < 3 ? options_.free_force : options_.free_moment;
-    // A process of size sigma and rate q forgets in 2 sigma^2 / q^2.
-    if (contact) relax(next.x[k], factor[k], noise[k], largest, 2.0 * std::pow(largest / walk, 2), elapsed);
-    else relax(next.x[k], factor[k], noise[k], free, options_.free_time, elapsed);
+    const double largest = options_.contact_force * (k < 3 ? 1.0 : kContactLever);
+    const double walk = k < 3 ? kForceWalk : kMomentWalk;
+    // A process of size sigma and rate q sigma forgets in 2 / q^2.
+    if (contact) relax(next.x[k], factor[k], noise[k], largest, 2.0 / (walk * walk), elapsed);
+    else relax(next.x[k], factor[k], noise[k], k < 3 ? kFreeForce : kFreeMoment, kFreeTime, elapsed);
   }
   if (options_.scale_deviation > 0.0 && !contact)
-    noise[scaleIndex()] = options_.scale_walk * options_.scale_walk * elapsed;
+    noise[scaleIndex()] = kScaleWalk * kScaleWalk * elapsed;
   for (int k = 0; k < 6; ++k) {
     const int i = biasIndex() + k;
-    relax(next.x[i], factor[i], noise[i], k < 3 ? options_.bias_position : options_.bias_rotation,
-          contact ? options_.bias_time_in_contact : options_.bias_time, elapsed);
-    const double rate = k < 3 ? options_.bias_position_per_pressure : options_.bias_rotation_per_pressure;
+    relax(next.x[i], factor[i], noise[i], modelErrorSize(k), contact ? kErrorTimeInContact : kErrorTime, elapsed);
+    const double rate = k < 3 ? kErrorPositionPerPressure : kErrorRotationPerPressure;
     noise[i] += std::pow(rate * pressure_change, 2);
   }
   next.P = factor.asDiagonal() * belief_.P * factor.asDiagonal();
@@ -123,8 +135,8 @@ double TipWrenchFilter::moveBy(const State& step, State& x, StiffnessSolution& s
 bool TipWrenchFilter::correct(const Pose& measured, const Belief& prior, bool learn_scale, Correction& result) {
   const int size = static_cast<int>(prior.x.size());
   Vector6 noise;
-  noise << Vector3::Constant(std::pow(options_.tracker.position, 2)),
-      Vector3::Constant(std::pow(options_.tracker.rotation, 2));
+  noise << Vector3::Constant(std::pow(options_.position_noise, 2)),
+      Vector3::Constant(std::pow(options_.rotation_noise, 2));
   State x = prior.x;
   if (!solveAt(x, result.solution)) return false;
   double weight = 1.0;
@@ -139,7 +151,7 @@ bool TipWrenchFilter::correct(const Pose& measured, const Belief& prior, bool le
       plain.diagonal() += noise;
       const Vector6 weighted = plain.llt().solve(predicted);
       result.innovation = std::sqrt(predicted.dot(weighted));
-      weight = std::max(1.0, result.innovation / options_.robust_from);
+      weight = std::max(1.0, result.innovation / kRobustFrom);
     }
     S.diagonal() += weight * noise;
     Design gain = S.llt().solve(HP);  // transposed

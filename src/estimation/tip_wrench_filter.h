@@ -12,6 +12,9 @@ namespace live_stiffness {
 class TipWrenchFilter {
  public:
   static constexpr int kMaxStates = 13;
+  // Poses farther than this from what the prior expects count less, as in Huber's loss, and a robot without contact is
+  // then taken to be touched; standard deviations.
+  static constexpr double kRobustFrom = 2.0;
   using State = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxStates, 1>;
   using StateMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxStates, kMaxStates>;
 
@@ -61,6 +64,8 @@ class TipWrenchFilter {
 
   int scaleIndex() const { return options_.components; }
   int biasIndex() const { return options_.components + 1; }
+  // Of a component of the model error, 0 to 5: standard deviation, m or rad.
+  double modelErrorSize(int k) const { return k < 3 ? options_.model_error_position : options_.model_error_rotation; }
   Wrench wrenchOf(const State& x) const;
   Pose withModelError(const Pose& X_BT, const State& x) const;
   // Derivative of the tip's twist by the state, at an equilibrium.

@@ -53,7 +53,7 @@ ParallelModel::ParallelModel(ParallelScene scene, ParallelOptions options)
     : scene_(std::move(scene)), options_(options) {
   FaultList faults("parallel model");
   if (scene_.rods.empty()) faults.add("rods: must hold at least one rod");
-  faults.check("accuracy", options_.accuracy, {1e-13, 1e-2});
+  faults.check(kAccuracy, options_.accuracy);
   faults.throwIfAny();
 }
 

@@ -4,7 +4,7 @@
 #include <boost/program_options.hpp>
 #include <string>
 
-#include "live_stiffness/checks.h"
+#include "live_stiffness/parameters.h"
 #include "bags/bag_format.h"
 
 namespace live_stiffness {
@@ -19,7 +19,8 @@ class BagOptions {
 
  private:
   BagFormat format_;
-  std::string pressure_unit_ = "Pa", pressure_reference_ = "gauge", position_unit_ = "m";
+  std::string pressure_unit_ = kPressureUnit.standard, pressure_reference_ = kPressureReference.standard,
+              position_unit_ = kPositionUnit.standard;
 };
 
 }  // namespace live_stiffness

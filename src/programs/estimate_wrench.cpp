@@ -15,6 +15,7 @@
 #include "live_stiffness/estimation/tip_wrench_estimator.h"
 #include "part_file.h"
 #include "live_stiffness/rod/scene_file.h"
+#include "parameter_options.h"
 #include "recording_reader.h"
 
 namespace po = boost::program_options;
@@ -108,31 +109,17 @@ int main(int argc, char** argv) {
   ForceSensorOptions force_sensor;
   RecordingReader reader;
   TipWrenchOptions filter;
-  double per_bar_m = 1e5 * filter.bias_position_per_pressure, per_bar_deg = 1e5 * degrees(filter.bias_rotation_per_pressure);
   po::options_description options = helpOption();
   options.add_options()
     ("scene", po::value(&scene)->required(), "scene of the recorded robot")
     ("recording", po::value(&recording)->required(), "CSV recording, or a bag")
     ("registration", po::value(&registration)->required(), "registration file, as register_recording writes it")
     ("output,o", po::value(&output), "CSV file to write (standard output)")
-    ("components", po::value(&filter.components)->default_value(3), "3 (force at T) or 6 (and moment)")
-    ("position-sigma-m", po::value(&filter.tracker.position)->default_value(filter.tracker.position), "tracker noise per axis")
-    ("rotation-sigma-rad", po::value(&filter.tracker.rotation)->default_value(filter.tracker.rotation), "tracker noise per axis")
-    ("bias-position-m", po::value(&filter.bias_position)->default_value(filter.bias_position), "slow model error per axis")
-    ("bias-rotation-rad", po::value(&filter.bias_rotation)->default_value(filter.bias_rotation), "slow model error per axis")
-    ("bias-time-s", po::value(&filter.bias_time)->default_value(filter.bias_time), "time in which it changes, no contact")
-    ("bias-position-per-bar-m", po::value(&per_bar_m)->default_value(per_bar_m), "slow model error after a change of pressure")
-    ("bias-rotation-per-bar-deg", po::value(&per_bar_deg)->default_value(per_bar_deg), "the same, rotation")
-    ("contact-force-n", po::value(&filter.contact_force)->default_value(filter.contact_force), "size of forces to expect")
-    ("force-walk", po::value(&filter.force_walk)->default_value(filter.force_walk), "how fast they change, N / sqrt(s)")
-    ("scale-deviation", po::value(&filter.scale_deviation)->default_value(filter.scale_deviation),
-     "uncertainty of the logarithm of the stiffness scale; 0: not adapted")
     ("score", po::value(&score), "CSV file to write how well the estimate follows the recorded force: quantity,value");
+  addOptions(options, filter);
   force_sensor.addTo(options);
   reader.addOptionsTo(options);
   return runProgram({argv, argv + argc}, kHelp, options, {{"scene", 1}, {"recording", 1}}, [&](const po::variables_map&) {
-    filter.bias_position_per_pressure = 1e-5 * per_bar_m;
-    filter.bias_rotation_per_pressure = 1e-5 * radians(per_bar_deg);
     run(scene, reader.load(recording), registration, output, score, force_sensor.mount(), filter);
     return kExitOk;
   });

@@ -18,7 +18,7 @@ class ForceSensorOptions {
   static std::string text(const ForceSensorMount& mount);
 
  private:
-  double azimuth_deg_ = 0.0, height_ = 0.0, sign_ = 1.0, crosstalk_x_ = 0.0, crosstalk_y_ = 0.0, delay_ = 0.0;
+  ForceSensorMount mount_;
   std::vector<std::string> channels_;
 };
 

@@ -28,7 +28,7 @@ ChannelMap readChannels(const MapArguments& arguments, int chambers) {
     return ChannelMap::even(arguments.channels > 0 ? arguments.channels : chambers, chambers);
   std::vector<int> channels;
   for (double number : numberList(arguments.channel_of_chamber, ',').value_or(std::vector<double>{-1.0})) {
-    if (!(number >= 0.0 && number < ChannelMap::kMaxChannels && number == std::floor(number)))
+    if (!(number >= 0.0 && number < kMaxChannels && number == std::floor(number)))
       throw ConfigurationError("options", {"channel-of-chamber = " + arguments.channel_of_chamber +
                                            ": must be the channel of each chamber from 0, for example 0,0,1,1,2,2"});
     channels.push_back(static_cast<int>(number));

@@ -2,14 +2,15 @@
 // Pictures of a parallel robot for rviz.
 
 #include "parallel/parallel_estimator.h"
+#include "parallel/parameters.h"
 #include "ros/marker_shapes.h"
 
 namespace live_stiffness {
 
 struct ParallelMarkerStyle : MarkerStyle {
-  ParallelMarkerStyle() { ellipsoid_scale = 50.0; }  // steel rods are stiff
+  ParallelMarkerStyle() { ellipsoid_scale = kParallelEllipsoidScale.standard; }
 
-  double rotation_scale = 0.6;  // half axis drawn per rotational compliance, m per (rad/(N m))
+  double rotation_scale = kRotationEllipsoidScale.standard;  // half axis per rotational compliance, m per (rad/(N m))
 };
 
 // Markers, by namespace: `rods` (tubes, a colour each, as thick as they are), `platform` and `base` (plates through the

@@ -7,6 +7,7 @@
 
 #include "live_stiffness/parallel/parallel_model.h"
 #include "live_stiffness/parallel/parallel_scene_file.h"
+#include "parallel/parameters.h"
 #include "ros/node_process.h"
 #include "ros/parameter_reader.h"
 
@@ -15,10 +16,18 @@ namespace {
 using namespace live_stiffness;
 
 struct Motion {
-  double radius = 0.1;   // m
-  double height = 0.4;   // m
-  double period = 20.0;  // s, of a round; 0: the platform stands still on the circle, at x = radius
-  double rate = 20.0;    // lengths per second
+  double radius = kCircleRadius.standard;  // m
+  double height = kCircleHeight.standard;  // m
+  double period = kCirclePeriod.standard;  // s, of a round; 0: the platform stands still on the circle, at x = radius
+  double rate = kLengthRate.standard;      // lengths per second
+
+  template <class Options, class Visit>
+  static void forEachParameter(Options& motion, Visit&& visit) {
+    visit(kCircleRadius, motion.radius);
+    visit(kCircleHeight, motion.height);
+    visit(kCirclePeriod, motion.period);
+    visit(kLengthRate, motion.rate);
+  }
 
   Pose at(double time) const {
     const double angle = period > 0.0 ? 2.0 * kPi * time / period : 0.0;
@@ -36,14 +45,13 @@ class ParallelRig {
 
  private:
   static ParallelScene load(const ros::NodeHandle& private_node, Motion& motion) {
-    FaultList faults("parameters of " + private_node.getNamespace());
+    FaultList faults("parameters of " + private_node.getNamespace(), "~");
     ParameterReader read(private_node, faults);
-    ParallelScene scene = read.file<ParallelScene>("scene_file", loadParallelSceneFile, true);
-    motion.radius = read.number("radius_m", motion.radius, Range::nonnegative());
-    motion.height = read.number("height_m", motion.height, Range::positive());
-    motion.period = read.number("period_s", motion.period, Range::nonnegative());
-    motion.rate = read.number("rate_hz", motion.rate, {1.0, 1000.0});
-    for (const std::string& key : read.unknown()) ROS_WARN("parameter ~%s is not known to parallel_rig", key.c_str());
+    ParallelScene scene;
+    read.requiredFile(kSceneFile, loadParallelSceneFile, scene);
+    Motion::forEachParameter(motion, read);
+    read.warnOfUnknown("parallel_rig");
+    faults.checkAll(motion);
     faults.throwIfAny();
     return scene;
   }

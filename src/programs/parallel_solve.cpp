@@ -6,6 +6,7 @@
 #include "command_line.h"
 #include "live_stiffness/parallel/parallel_model.h"
 #include "live_stiffness/parallel/parallel_scene_file.h"
+#include "parameter_options.h"
 #include "result_table.h"
 
 namespace po = boost::program_options;
@@ -88,17 +89,15 @@ const char* const kHelp =
 int main(int argc, char** argv) {
   std::string scene_path;
   ParallelOptions parallel_options;
-  double accuracy = parallel_options.accuracy;
   int points = 0;
   po::options_description options = helpOption();
   options.add_options()
     ("inverse", "read platform poses and find the lengths of six rods")
-    ("accuracy", po::value(&accuracy)->default_value(accuracy, "1e-9"), "relative, of pose and compliance")
     ("points", po::value(&points)->default_value(points),
      "also this number of points of every rod, at equal distances from base to platform")
     ("scene", po::value(&scene_path)->required(), "scene file of kind parallel");
+  addOption(options, kAccuracy, parallel_options.accuracy);
   return runProgram({argv, argv + argc}, kHelp, options, {{"scene", 1}}, [&](const po::variables_map& values) {
-    parallel_options.accuracy = accuracy;
     if (points != 0 && (points < 2 || points > 1000))
       throw ConfigurationError("options", {"points = " + std::to_string(points) + ": must be 0 or from 2 to 1000"});
     RodShapes shapes;

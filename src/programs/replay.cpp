@@ -10,6 +10,7 @@
 #include "part_file.h"
 #include "live_stiffness/rod/scene_file.h"
 #include "bags/bag_replay.h"
+#include "parameter_options.h"
 #include "progress_bar.h"
 
 namespace po = boost::program_options;
@@ -24,8 +25,8 @@ const char* const kHelp =
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string bag, out, scene, registration, report_path, model = "ncm";
-  double accuracy = ModelOptions().accuracy;
+  std::string bag, out, scene, registration, report_path, model = kModel.standard;
+  ModelOptions model_options;
   ReplayOptions replay;
   BagOptions bag_options(replay.format);
   po::options_description options = helpOption();
@@ -35,24 +36,20 @@ int main(int argc, char** argv) {
     ("registration", po::value(&registration), "registration file (default: identity)")
     ("output,o", po::value(&out), "bag to write (default: BAG with .estimates.bag)")
     ("report", po::value(&report_path), "also write the report here, as Markdown")
-    ("model", po::value(&model)->default_value(model), "lpcc, npcc, lcm or ncm")
-    ("accuracy", po::value(&accuracy)->default_value(accuracy), "relative, 1e-13 to 1e-2")
-    ("update-threshold-pa", po::value(&replay.estimator.update_threshold)->default_value(1000.0),
-     "solve again when the 2-norm of the change of pressure exceeds this")
     ("channel-of-chamber", po::value(&replay.channel_of_chamber)->multitoken(),
      "channel of each chamber, such as 0 0 1 1 2 2 (default: the bag's channels feed neighbours evenly)");
+  addOption(options, kModel, model);
+  addOption(options, kAccuracy, model_options.accuracy);
+  addOption(options, kUpdateThreshold, replay.estimator.update_threshold);
   bag_options.addTo(options);
   return runProgram({argv, argv + argc}, kHelp, options, {{"bag", 1}}, [&](const po::variables_map&) {
     FaultList faults("options");
-    ModelOptions model_options = namedModelOptions(model, "", faults);
-    faults.check("accuracy", accuracy, {1e-13, 1e-2});
-    faults.check("update-threshold-pa", replay.estimator.update_threshold, Range::nonnegative());
+    model_options = namedModelOptions(model, "", faults, model_options);
+    faults.checkAll(model_options);
+    faults.checkAll(replay.estimator);
     replay.format = bag_options.format(faults);
-    for (int channel : replay.channel_of_chamber)
-      if (channel < 0 || channel > 1023)
-        faults.add("channel-of-chamber: " + std::to_string(channel) + ": must be 0 to 1023");
+    faults.check(kChannelOfChamber, replay.channel_of_chamber);
     faults.throwIfAny();
-    model_options.accuracy = accuracy;
     if (!registration.empty()) replay.registration = loadRegistrationFile(registration);
     if (scene.empty()) {
       const std::string package = ros::package::getPath("live_stiffness");
@@ -67,7 +64,7 @@ int main(int argc, char** argv) {
           bar->update(done);
         });
     std::cout << "scene: " << scene << "\n\n";
-    const std::string text = report.text(bag, accuracy);
+    const std::string text = report.text(bag, model_options.accuracy);
     std::cout << text << "\nestimates: " << out << "\n";
     if (!report_path.empty()) writeTextFile("report", report_path, text);
     return kExitOk;

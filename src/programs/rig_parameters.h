@@ -1,5 +1,5 @@
 #pragma once
-// Private parameters of rig_simulator. config/rig_simulator.yaml is their manual.
+// Private parameters of rig_simulator. rig/parameters.h says what each is.
 
 #include <ros/node_handle.h>
 
@@ -12,9 +12,9 @@ namespace live_stiffness {
 struct RigParameters {
   Scene scene;
   RigOptions options;
-  double rate = 40.0;         // samples per second
-  std::string tracker_frame;  // frame_id of the tracker's poses
-  std::string base_frame;     // frame_id of the true tip pose and of the true wrench
+  double rate = kSampleRate.standard;                     // samples per second
+  std::string tracker_frame = kRigTrackerFrame.standard;  // frame_id of the tracker's poses
+  std::string base_frame = kRigBaseFrame.standard;        // frame_id of the true tip pose and of the true wrench
 };
 
 // Reads and validates all of them. Throws ConfigurationError with every fault. Warns of unknown ones.

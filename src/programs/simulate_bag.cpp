@@ -6,6 +6,7 @@
 #include "rig/rig_model.h"
 #include "live_stiffness/rod/scene_file.h"
 #include "bags/rig_bag.h"
+#include "parameter_options.h"
 #include "progress_bar.h"
 
 namespace po = boost::program_options;
@@ -19,37 +20,35 @@ const char* const kHelp =
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string scene_path, bag_path, program = "triangle", registration_path;
-  double seconds = 20.0, rate_hz = 40.0;
+  std::string scene_path, bag_path, program = kProgram.standard, registration_path;
+  double seconds = 20.0, rate = kSampleRate.standard;
   std::vector<double> push_n;
   int channels = 0;
   RigOptions rig_options;
-  rig_options.drop_out_probability = 0.002;
   ContactOptions& contact = rig_options.contact;
   po::options_description options = helpOption();
   options.add_options()
     ("scene", po::value(&scene_path)->required(), "scene file")
     ("bag", po::value(&bag_path)->required(), "bag to write")
-    ("program", po::value(&program)->default_value(program), "triangle, staircase or random_walk")
     ("seconds", po::value(&seconds)->default_value(seconds), "length of the bag")
-    ("rate-hz", po::value(&rate_hz)->default_value(rate_hz), "samples per second")
-    ("amplitude-pa", po::value(&rig_options.program.amplitude)->default_value(rig_options.program.amplitude),
-     "highest pressure")
     ("channels", po::value(&channels), "pressure channels, each feeding as many neighbouring chambers (default: one "
                                        "per chamber)")
     ("push-n", po::value(&push_n)->multitoken(), "force that pushes the tip now and then, X Y Z in base axes; the bag "
                                                  "then has the truth on tip_force_torque, in axes of the tip")
-    ("push-start-s", po::value(&contact.start)->default_value(contact.start), "when the first push begins")
-    ("push-duration-s", po::value(&contact.duration)->default_value(contact.duration), "length of a push")
+    ("push-start-s", po::value(&contact.start)->default_value(contact.start), kPushStart.meaning)
+    ("push-duration-s", po::value(&contact.duration)->default_value(contact.duration), kPushDuration.meaning)
     ("push-period-s", po::value(&contact.period)->default_value(contact.period),
      "from push to push, each turned by 90 deg about z; 0: one push only")
-    ("registration", po::value(&registration_path), "where base and sensor are (default: identity)")
-    ("seed", po::value(&rig_options.seed)->default_value(rig_options.seed), "of everything random");
+    ("registration", po::value(&registration_path), "where base and sensor are (default: identity)");
+  addOption(options, kProgram, program);
+  addOption(options, kSampleRate, rate);
+  addOption(options, kAmplitude, rig_options.program.amplitude);
+  addOption(options, kSeed, rig_options.seed);
   return runProgram({argv, argv + argc}, kHelp, options, {{"scene", 1}, {"bag", 1}}, [&](const po::variables_map&) {
     FaultList faults("options");
     rig_options.program.kind = programKind(program, faults);
     faults.check("seconds", seconds, {0.1, 1e5});
-    faults.check("rate-hz", rate_hz, {1.0, 1000.0});
+    faults.check(kSampleRate, rate);
     if (!push_n.empty() && push_n.size() != 3)
       faults.add("push-n has " + std::to_string(push_n.size()) + " numbers: must be three, X Y Z");
     else if (!push_n.empty()) contact.wrench << push_n[0], push_n[1], push_n[2], 0.0, 0.0, 0.0;
@@ -59,10 +58,10 @@ int main(int argc, char** argv) {
     if (!registration_path.empty()) rig_options.registration = loadRegistrationFile(registration_path);
     RigModel rig(scene, rig_options);
     RigBag bag(bag_path, "aurora");
-    const long samples = static_cast<long>(seconds * rate_hz);
+    const long samples = static_cast<long>(seconds * rate);
     ProgressBar progress("simulating " + bag_path, samples);
     for (long i = 0; i < samples; ++i) {
-      const RigSample sample = rig.step(i / rate_hz);
+      const RigSample sample = rig.step(i / rate);
       const ros::Time stamp = bagTime(sample.time);
       bag.write(sample.measured_channels, stamp);
       if (sample.X_AS) bag.write(*sample.X_AS, stamp);

@@ -13,6 +13,7 @@
 #include "live_stiffness/rod/scene_file.h"
 #include "map_arguments.h"
 #include "map_table.h"
+#include "parameter_options.h"
 #include "progress_bar.h"
 
 namespace po = boost::program_options;
@@ -125,6 +126,8 @@ const char kHelp[] =
     "  tau_n           the criterion (22); tau_n_per_m where that is its unit\n"
     "The third prints, as YAML, the channel pressures that reach a point with the largest and with the smallest\n"
     "stiffness along a direction (force over displacement, everything else free, tangent).\n"
+    "--find steps continuously unless told otherwise, since the number of fixed steps jumps with pressure, and with an\n"
+    "accuracy of 1e-10 or better.\n"
     "Exit status: 0 done, 1 the point is out of reach, 2 nothing could be done.\n\n";
 
 }  // namespace
@@ -153,13 +156,10 @@ int main(int argc, char** argv) {
     ("max-bar", po::value(&a.max_bar)->default_value(a.max_bar), "largest pressure of --find; the smallest is 0")
     ("tolerance-mm", po::value(&a.tolerance_mm)->default_value(a.tolerance_mm, "0.1"), "largest miss of --find")
     ("starts", po::value(&a.starts)->default_value(a.starts), "random starts of --find")
-    ("model", po::value(&a.model), "lpcc, npcc, lcm or ncm (default: ncm)")
-    ("stepping", po::value(&a.stepping),
-     "fixed_step, continuous or linear (default: as the model says; --find: continuous, since the number of fixed "
-     "steps jumps with pressure)")
-    ("accuracy", po::value(&a.accuracy)->default_value(a.accuracy, "1e-6"),
-     "relative, of pose and compliance; --find: at least 1e-10")
     ("scene", po::value(&a.scene)->required(), "scene file");
+  addOption(options, kModel, a.model);
+  addOption(options, kStepping, a.stepping);
+  addOption(options, kAccuracy, a.accuracy);
   // --max_bar is --max-bar, and --pressures was once called --grid.
   std::vector<std::string> words(argv, argv + argc);
   const std::string former = "--grid";
@@ -174,7 +174,7 @@ int main(int argc, char** argv) {
     const bool finds = values.count("find") > 0;
     if (finds == (values.count("pressures") > 0)) faults.add("give either --pressures or --find");
     if (values.count("random")) faults.check("random", static_cast<double>(a.random), {1.0, 1e9});
-    if (values.count("channels")) faults.check("channels", a.channels, {1.0, 1.0 * ChannelMap::kMaxChannels});
+    if (values.count("channels")) faults.check("channels", a.channels, {1, kMaxChannels});
     if (values.count("channels") && values.count("channel-of-chamber"))
       faults.add("give either --channels or --channel-of-chamber");
     faults.check("threads", a.threads, {0.0, 1024.0});

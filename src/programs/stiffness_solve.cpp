@@ -8,6 +8,7 @@
 #include "command_line.h"
 #include "live_stiffness/analysis/deflection.h"
 #include "live_stiffness/rod/scene_file.h"
+#include "parameter_options.h"
 #include "result_table.h"
 
 namespace po = boost::program_options;
@@ -109,29 +110,22 @@ const char* const kHelp =
 int main(int argc, char** argv) {
   std::string scene_path, model_name, stepping, stations;
   Further further;
-  ModelOptions defaults;
-  double pressure_step_pa = defaults.pressure_step;
-  double accuracy = defaults.accuracy;
+  ModelOptions model_options;
   po::options_description options = helpOption();
   options.add_options()
-    ("model", po::value(&model_name), "lpcc, npcc, lcm or ncm: the paper's shorthand for the two switches; the PCC "
-                                      "pair ignores external loads, the linear pair steps once (default: ncm)")
-    ("stepping", po::value(&stepping), "fixed_step, continuous or linear (default: as the model says)")
-    ("pressure-step-pa", po::value(&pressure_step_pa)->default_value(pressure_step_pa, "15000"),
-     "largest step of fixed_step, Pa")
-    ("accuracy", po::value(&accuracy)->default_value(accuracy, "1e-9"), "relative, of pose and compliance")
     ("stations", po::value(&stations), "also pose and material compliance there in every segment: fractions of its "
                                        "length, such as 0.5,1")
     ("deflection", po::bool_switch(&further.deflection),
      "also where (19) and its linear part predict the tip, from both compliances without the wrench")
     ("scene", po::value(&scene_path)->required(), "scene file");
+  addOption(options, kModel, model_name);
+  addOption(options, kStepping, stepping);
+  addOptions(options, model_options);
   return runProgram({argv, argv + argc}, kHelp, options, {{"scene", 1}}, [&](const po::variables_map&) {
     FaultList faults("options");
-    ModelOptions model_options = namedModelOptions(model_name, stepping, faults);
+    model_options = namedModelOptions(model_name, stepping, faults, model_options);
     further.fractions = readFractions(stations, faults);
     faults.throwIfAny();
-    model_options.pressure_step = pressure_step_pa;
-    model_options.accuracy = accuracy;
     const StiffnessModel model(loadSceneFile(scene_path), model_options);
     std::ios::sync_with_stdio(false);
     InputTable table(std::cin, numberedColumns("p_", "_pa", model.scene().chamberCount()));

@@ -14,16 +14,15 @@ Contact::Contact(const ContactOptions& options) : options_(options) {
 }
 
 void Contact::check(const ContactOptions& options, FaultList& faults) {
-  const auto check_axis = [&](const std::string& name, double value) { faults.check(name, value, Range::finite()); };
-  for (int k = 0; k < 3; ++k) {
-    check_axis("contact_force_n[" + std::to_string(k) + "]", options.wrench[k]);
-    check_axis("contact_moment_n_m[" + std::to_string(k) + "]", options.wrench[3 + k]);
-  }
-  faults.check("contact_start_s", options.start, {0.0, 1e5});
-  faults.check("contact_duration_s", options.duration, {0.1, 3600.0});
-  faults.check("contact_ramp_s", options.ramp, {0.0, 0.5 * options.duration});
-  if (options.period != 0.0) faults.check("contact_period_s", options.period, {options.duration, 1e5});
-  faults.check("contact_turn_deg", degrees(options.turn), Range::finite());
+  const Wrench& wrench = options.wrench;
+  faults.check(kPushForce, std::vector<double>(wrench.data(), wrench.data() + 3));
+  faults.check(kPushMoment, std::vector<double>(wrench.data() + 3, wrench.data() + 6));
+  faults.checkAll(options);
+  const std::string duration = "contact_duration_s, " + numberText(options.duration);
+  if (options.ramp > 0.5 * options.duration)
+    faults.add(kPushRamp.key + (" = " + numberText(options.ramp)) + ": must be at most half of " + duration);
+  if (options.period != 0.0 && options.period < options.duration)
+    faults.add(kPushPeriod.key + (" = " + numberText(options.period)) + ": must be 0 (one push) or at least " + duration);
 }
 
 Wrench Contact::at(double time) const {

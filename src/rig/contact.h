@@ -2,20 +2,28 @@
 // A pusher that touches the tip of the simulated robot at programmed times, with a programmed force: a truth for
 // estimators of contact.
 
-#include "live_stiffness/checks.h"
-#include "live_stiffness/conventions.h"
+#include "rig/parameters.h"
 
 namespace live_stiffness {
 
-// Legal ranges in the comments. The names of the parameter files are contact_ and these with their units.
 struct ContactOptions {
   Wrench wrench = Wrench::Zero();  // of the first push at its height: [f; m] at T, base axes, N and N m; finite.
                                    // Zero: nothing ever touches the tip
-  double start = 5.0;              // when the first push begins, s; 0 to 1e5
-  double duration = 4.0;           // of a push, rise and fall included, s; 0.1 to 3600
-  double ramp = 0.5;               // of the rise and of the fall, s; 0 to half of the duration
-  double period = 10.0;            // from one push's beginning to the next one's, s; duration to 1e5. 0: one push only
-  double turn = radians(90.0);     // of the wrench about z of the base from push to push, rad; finite
+  double start = kPushStart.standard;        // when the first push begins, s
+  double duration = kPushDuration.standard;  // of a push, rise and fall included, s
+  double ramp = kPushRamp.standard;          // of the rise and of the fall, s; at most half of the duration
+  double period = kPushPeriod.standard;      // from one push's beginning to the next one's, s; at least the duration.
+                                             // 0: one push only
+  double turn = kPushTurn.si();              // of the wrench about z of the base from push to push, rad
+
+  template <class Options, class Visit>
+  static void forEachParameter(Options& options, Visit&& visit) {
+    visit(kPushStart, options.start);
+    visit(kPushDuration, options.duration);
+    visit(kPushRamp, options.ramp);
+    visit(kPushPeriod, options.period);
+    visit(kPushTurn, options.turn);
+  }
 };
 
 // A pure function of time. Rise and fall are quintic blends.

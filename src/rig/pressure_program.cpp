@@ -62,20 +62,15 @@ const char* programName(ProgramKind kind) {
 ProgramKind programKind(const std::string& name, FaultList& faults) {
   for (ProgramKind kind : {ProgramKind::kTriangle, ProgramKind::kStaircase, ProgramKind::kRandomWalk})
     if (name == programName(kind)) return kind;
-  faults.add("program = " + name + ": must be triangle, staircase or random_walk");
+  faults.check(kProgram, name);
   return ProgramKind::kTriangle;
-}
-
-void PressureProgram::check(const ProgramOptions& options, FaultList& faults) {
-  faults.check("amplitude_pa", options.amplitude, {0.0, 1e6});
-  faults.check("period_s", options.period, {0.1, 3600.0});
 }
 
 PressureProgram::PressureProgram(int channels, const ProgramOptions& options)
     : channels_(channels), options_(options) {
   FaultList faults("pressure program");
-  faults.check("channels", channels, {1.0, 1024.0});
-  check(options, faults);
+  faults.check("channels", channels, {1, kMaxChannels});
+  faults.checkAll(options);
   faults.throwIfAny();
   if (options.kind != ProgramKind::kRandomWalk) return;
   std::mt19937_64 random(options.seed);

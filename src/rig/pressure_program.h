@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "live_stiffness/checks.h"
-#include "live_stiffness/conventions.h"
+#include "rig/parameters.h"
 
 namespace live_stiffness {
 
@@ -23,9 +22,15 @@ ProgramKind programKind(const std::string& name, FaultList& faults);
 
 struct ProgramOptions {
   ProgramKind kind = ProgramKind::kTriangle;
-  double amplitude = 80000.0;  // highest commanded pressure, Pa gauge; 0 to 1e6
-  double period = 10.0;        // s; 0.1 to 3600
-  std::uint64_t seed = 1;      // of the random walk
+  double amplitude = kAmplitude.standard;  // highest commanded pressure, Pa gauge
+  double period = kPeriod.standard;        // s
+  std::uint64_t seed = 1;                  // of the random walk
+
+  template <class Options, class Visit>
+  static void forEachParameter(Options& options, Visit&& visit) {
+    visit(kAmplitude, options.amplitude);
+    visit(kPeriod, options.period);
+  }
 };
 
 // A pure function of time: the same options give the same pressures, whatever the order of the questions. Every
@@ -36,9 +41,6 @@ class PressureProgram {
  public:
   // channels: 1 to 1024. Throws ConfigurationError with every fault.
   PressureProgram(int channels, const ProgramOptions& options);
-
-  // Adds faults of options to a list, under the names amplitude_pa and period_s.
-  static void check(const ProgramOptions& options, FaultList& faults);
 
   int channelCount() const { return channels_; }
   const ProgramOptions& options() const { return options_; }

@@ -11,6 +11,7 @@ namespace live_stiffness {
 namespace {
 
 constexpr int kErrorComponents = 3;
+constexpr double kSlowestError = 60.0;  // s, period of the slowest of them
 
 std::vector<int> channelsOrOnePerChamber(const Scene& scene, const RigOptions& options) {
   if (!options.channel_of_chamber.empty()) return options.channel_of_chamber;
@@ -28,16 +29,7 @@ void checkPose(const std::string& name, const Pose& X, FaultList& faults) {
 }
 
 void checkNumbers(const RigOptions& options, FaultList& faults) {
-  PressureProgram::check(options.program, faults);
-  faults.check("regulator_time_constant_s", options.regulator_time_constant, {0.0, 10.0});
-  faults.check("regulator_error_pa", options.regulator_error, {0.0, 1e5});
-  faults.check("regulator_error_period_s", options.regulator_error_period, {1.0, 1e5});
-  faults.check("creep_fraction", options.creep_fraction, {0.0, 0.5});
-  faults.check("creep_time_constant_s", options.creep_time_constant, {0.01, 1000.0});
-  faults.check("position_noise_m", options.position_noise, {0.0, 0.1});
-  faults.check("rotation_noise_rad", options.rotation_noise, {0.0, 0.5});
-  faults.check("drop_out_probability", options.drop_out_probability, {0.0, 1.0});
-  faults.check("drop_out_duration_s", options.drop_out_duration, {0.0, 3600.0});
+  faults.checkAll(options);
   faults.check("tracker_delay_s", options.registration.tracker_delay, {0.0, Registration::kLargestDelay});
   checkPose("base_in_tracker", options.registration.X_AB, faults);
   checkPose("sensor_on_tip", options.registration.X_TS, faults);
@@ -102,7 +94,7 @@ RigModel::RigModel(Scene scene, const RigOptions& options)
 // Sines of one, two and three times the slowest frequency, a third of the bound each.
 Pressures RigModel::slowError(double time) const {
   Pressures error = Pressures::Zero(channel_map_.channelCount());
-  const double slowest = 2.0 * kPi * std::fmod(time / options_.regulator_error_period, 1.0);
+  const double slowest = 2.0 * kPi * std::fmod(time / kSlowestError, 1.0);
   for (int channel = 0; channel < error.size(); ++channel)
     for (int k = 0; k < kErrorComponents; ++k)
       error[channel] +=

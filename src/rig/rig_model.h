@@ -23,33 +23,47 @@
 
 namespace live_stiffness {
 
-// Legal ranges in the comments; see RigModel for what happens outside of them.
 struct RigOptions {
   std::vector<int> channel_of_chamber;  // see ChannelMap; empty: one channel per chamber
   ProgramOptions program;               // its seed is replaced by one drawn from `seed`
-  std::uint64_t seed = 1;               // of everything random here
+  std::uint64_t seed = static_cast<std::uint64_t>(kSeed.standard);  // of everything random here
 
-  double regulator_time_constant = 0.1;  // s; 0 to 10
-  double regulator_error = 3000.0;       // bound of the slow error, Pa; 0 to 1e5
-  double regulator_error_period = 60.0;  // s; 1 to 1e5: slowest of three sines, the others 2 and 3 times as fast
+  double regulator_time_constant = kRegulatorTimeConstant.standard;  // s
+  double regulator_error = kRegulatorError.standard;                 // bound of the slow error, Pa
 
   // Effective pressure = (1 - fraction) actual + fraction * actual lagged by the time constant: after a step the robot
   // reaches (1 - fraction) at once and creeps the rest. Fully relaxed it is the fine robot exactly.
-  double creep_fraction = 0.05;       // 0 to 0.5
-  double creep_time_constant = 2.0;   // s; 0.01 to 1000
+  double creep_fraction = kCreepFraction.standard;
+  double creep_time_constant = kCreepTimeConstant.standard;  // s
 
   // X_AB and X_TS of the rig, rotations orthonormal to 1e-6; and by how much its tracker is late, 0 to kLargestDelay.
   Registration registration;
 
   // White and isotropic. Both are RMS values of the error's *magnitude*, as trackers are specified: each of the three
   // components has the standard deviation value / sqrt(3). The rotation error is a small turn in the sensor's axes.
-  double position_noise = 0.48e-3;           // m; 0 to 0.1
-  double rotation_noise = radians(0.30);     // rad; 0 to 0.5
-  double drop_out_probability = 0.0;  // per tracker sample outside of a drop-out, that one starts; 0 to 1
-  double drop_out_duration = 0.5;     // s; 0 to 3600
+  double position_noise = kPositionNoise.si();  // m
+  double rotation_noise = kRotationNoise.si();  // rad
+  double drop_out_probability = kDropOutProbability.standard;  // per tracker sample outside of a drop-out, that one starts
+  double drop_out_duration = kDropOutDuration.standard;        // s
 
   Wrench tip_wrench = Wrench::Zero();  // dead wrench at T, base axes, N and N m; finite
   ContactOptions contact;              // what pushes the tip beside it now and then
+
+  // Of all but the wrenches and the registration.
+  template <class Options, class Visit>
+  static void forEachParameter(Options& options, Visit&& visit) {
+    ProgramOptions::forEachParameter(options.program, visit);
+    visit(kSeed, options.seed);
+    visit(kRigChannelOfChamber, options.channel_of_chamber);
+    visit(kRegulatorTimeConstant, options.regulator_time_constant);
+    visit(kRegulatorError, options.regulator_error);
+    visit(kCreepFraction, options.creep_fraction);
+    visit(kCreepTimeConstant, options.creep_time_constant);
+    visit(kPositionNoise, options.position_noise);
+    visit(kRotationNoise, options.rotation_noise);
+    visit(kDropOutProbability, options.drop_out_probability);
+    visit(kDropOutDuration, options.drop_out_duration);
+  }
 };
 
 struct RigSample {

@@ -18,7 +18,7 @@
 #include <string>
 
 #include "live_stiffness/analysis/deflection.h"
-#include "live_stiffness/checks.h"
+#include "live_stiffness/parameters.h"
 #include "estimation/registration_buffer.h"
 #include "live_stiffness/estimation/stiffness_estimator.h"
 #include "live_stiffness/estimation/tip_wrench_estimator.h"
@@ -33,7 +33,7 @@ constexpr char kForceSensorFrame[] = "tip_force_sensor";
 struct PressureFormat {
   double unit = 1.0;  // Pa per unit of the message
   bool absolute = false;
-  double atmosphere = kAtmospherePa;  // subtracted from absolute ones, Pa
+  double atmosphere = kAtmosphericPressure.standard;  // subtracted from absolute ones, Pa
 
   double gauge(double value) const;  // Pa
 };

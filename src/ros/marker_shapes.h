@@ -8,12 +8,13 @@
 
 #include "live_stiffness/analysis/ellipsoid.h"
 #include "live_stiffness/lie/se3.h"
+#include "live_stiffness/parameters.h"
 
 namespace live_stiffness {
 
 struct MarkerStyle {
   std::string frame;             // base frame
-  double ellipsoid_scale = 0.3;  // half axis drawn per compliance, m per (m/N)
+  double ellipsoid_scale = kEllipsoidScale.standard;  // half axis drawn per compliance, m per (m/N)
   double tube_radius = 0.0015;   // of the backbone, m
 };
 

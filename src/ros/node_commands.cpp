@@ -1,8 +1,8 @@
 // Commands to a running StiffnessNode: ~reset, ~pause, ~reload and dynamic_reconfigure.
 
 #include <dynamic_reconfigure/server.h>
+#include <live_stiffness/StiffnessConfig.h>
 
-#include "ros/reconfiguration.h"
 #include "ros/stiffness_node.h"
 
 namespace live_stiffness {
@@ -88,13 +88,11 @@ bool StiffnessNode::reload(std_srvs::Trigger::Request&, std_srvs::Trigger::Respo
 
 void StiffnessNode::Reconfiguration::onChange(StiffnessConfig& wanted, uint32_t level) {
   if (level == ~0u) return;  // the first call: what was loaded at start
-  NodeParameters parameters = node.parameters_;
-  FaultList faults("reconfigure");
-  apply(wanted, parameters, faults);
+  NodeParameters parameters;
   try {
-    faults.throwIfAny();
-    if (level & (kContactChanged | kRobotChanged)) node.setParameters(parameters, true);
-    if (level & kRobotChanged) node.registration_.restart(node.snapshot().model);
+    parameters = reconfigured(node.parameters_, wanted);
+    if (level & (Live::kContact | Live::kRobot)) node.setParameters(parameters, true);
+    if (level & Live::kRobot) node.registration_.restart(node.snapshot().model);
   } catch (const ConfigurationError& error) {
     ROS_ERROR_STREAM("reconfigure: kept what was set before: " << oneLine(error.faults()));
     wanted = config;

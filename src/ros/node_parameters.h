@@ -1,5 +1,5 @@
 #pragma once
-// Private parameters of stiffness_node. config/stiffness_node.yaml is their manual.
+// Private parameters of stiffness_node. live_stiffness/parameters.h says what each is.
 
 #include <ros/node_handle.h>
 
@@ -16,45 +16,89 @@
 
 namespace live_stiffness {
 
+class StiffnessConfig;  // of dynamic_reconfigure
+
 struct TipHandleOptions {
-  bool enabled = true;
-  double force_per_m = 20.0;     // N of force for each m the handle is dragged, and of the arrow drawn
-  double moment_per_rad = 0.01;  // N m of moment for each rad the handle is turned
+  bool enabled = kTipHandle.standard;
+  double force_per_m = kTipHandleForce.standard;      // N of force for each m the handle is dragged, and of the arrow drawn
+  double moment_per_rad = kTipHandleMoment.standard;  // N m of moment for each rad the handle is turned
 };
 
 struct NodeParameters {
   Scene scene;
+  std::string model_name = kModel.standard, stepping_name = kStepping.standard;
   ModelOptions model;
   EstimatorOptions estimator;
-  double heartbeat = 1.0;  // Hz
+  double heartbeat = kHeartbeat.standard;  // Hz
 
-  PressureFormat pressure_format;
+  std::string pressure_unit = kPressureUnit.standard, pressure_reference = kPressureReference.standard;
+  PressureFormat pressure_format;            // by these names
   std::vector<std::string> pressure_topics;  // one sensor_msgs/FluidPressure topic per channel; empty: one topic
   std::vector<int> channel_of_chamber;       // empty: one channel per chamber
-  double pressure_timeout = 0.5;             // s
+  double pressure_timeout = kPressureTimeout.standard;  // s
 
-  double position_unit = 1.0;   // m per unit of the tracker's positions
-  std::string tracker_frame;    // A
-  std::string sensor_frame;     // the tracker's name of the sensor, also accepted as frame_id
-  std::string tracker_tf_frame;  // look the sensor up in tf under this name instead of a topic; empty: topic
-  double pose_timeout = 1.0;    // s
-  Registration registration;          // in use: loaded, until ~register applies another one
-  std::string registration_file;      // that it was loaded from; empty: none
-  double registration_buffer = 120.0;  // s of the past that ~register can use
-  double tip_wrench_timeout = 1.0;  // s; 0: keep the last one for ever
+  std::string position_unit_name = kPositionUnit.standard;
+  double position_unit = 1.0;                                // m per unit of the tracker's positions, by that name
+  std::string tracker_frame = kTrackerFrame.standard;        // A
+  std::string sensor_frame = kSensorFrame.standard;          // the tracker's name of the sensor, also accepted as frame_id
+  std::string tracker_tf_frame = kTrackerTfFrame.standard;   // look it up in tf instead of a topic; empty: topic
+  double pose_timeout = kPoseTimeout.standard;               // s
+  Registration registration;      // in use: loaded, until ~register applies another one
+  std::string registration_file;  // that it was loaded from; empty: none
+  double registration_buffer = kRegistrationBuffer.standard;  // s of the past that ~register can use
+  double tip_wrench_timeout = kTipWrenchTimeout.standard;     // s; 0: keep the last one for ever
 
   TipWrenchOptions contact;
-  double contact_arrow_scale = 20.0;  // of the arrow drawn, N/m
+  double contact_arrow_scale = kContactArrow.standard;  // of the arrow drawn, N/m
 
-  FrameNames frames;  // B, and T as predicted
-  MarkerStyle style;             // its frame is that of B; its scale is the force in N whose displacement is drawn
-  double marker_rate = 10.0;     // Hz
-  bool show_eigenscrews = false;
-  double eigenscrew_length = 0.06;  // of each axis drawn, m
+  FrameNames frames{kBaseFrame.standard, kTipFrame.standard};  // B, and T as predicted
+  MarkerStyle style;  // its frame is that of B; its scale is the force in N whose displacement is drawn
+  double marker_rate = kMarkerRate.standard;  // Hz
+  bool show_eigenscrews = kShowEigenscrews.standard;
+  double eigenscrew_length = kEigenscrewLength.standard;  // of each axis drawn, m
   TipHandleOptions tip_handle;
+
+  // Calls visit(parameter, field) for each parameter but the scene.
+  template <class Parameters, class Visit>
+  static void forEachParameter(Parameters& p, Visit&& visit) {
+    visit(kModel, p.model_name);
+    visit(kStepping, p.stepping_name);
+    ModelOptions::forEachParameter(p.model, visit);
+    EstimatorOptions::forEachParameter(p.estimator, visit);
+    visit(kHeartbeat, p.heartbeat);
+    visit(kPressureUnit, p.pressure_unit);
+    visit(kPressureReference, p.pressure_reference);
+    visit(kAtmosphericPressure, p.pressure_format.atmosphere);
+    visit(kPressureTopics, p.pressure_topics);
+    visit(kChannelOfChamber, p.channel_of_chamber);
+    visit(kPressureTimeout, p.pressure_timeout);
+    visit(kPositionUnit, p.position_unit_name);
+    visit(kTrackerFrame, p.tracker_frame);
+    visit(kSensorFrame, p.sensor_frame);
+    visit(kTrackerTfFrame, p.tracker_tf_frame);
+    visit(kPoseTimeout, p.pose_timeout);
+    visit(kRegistrationFile, p.registration_file);
+    visit(kRegistrationBuffer, p.registration_buffer);
+    visit(kTipWrenchTimeout, p.tip_wrench_timeout);
+    TipWrenchOptions::forEachParameter(p.contact, visit);
+    visit(kContactArrow, p.contact_arrow_scale);
+    visit(kBaseFrame, p.frames.base);
+    visit(kTipFrame, p.frames.body);
+    visit(kEllipsoidScale, p.style.ellipsoid_scale);
+    visit(kMarkerRate, p.marker_rate);
+    visit(kShowEigenscrews, p.show_eigenscrews);
+    visit(kEigenscrewLength, p.eigenscrew_length);
+    visit(kTipHandle, p.tip_handle.enabled);
+    visit(kTipHandleForce, p.tip_handle.force_per_m);
+    visit(kTipHandleMoment, p.tip_handle.moment_per_rad);
+  }
 };
 
 // Reads and validates all of them. Throws ConfigurationError with every fault. Warns of unknown ones.
 NodeParameters loadNodeParameters(const ros::NodeHandle& private_node);
+
+// The parameters with those changed that dynamic_reconfigure can change. Throws ConfigurationError with every fault, NaN
+// included, which dynamic_reconfigure itself lets through.
+NodeParameters reconfigured(NodeParameters parameters, const StiffnessConfig& config);
 
 }  // namespace live_stiffness

@@ -1,7 +1,6 @@
 #include "ros/parameter_reader.h"
 
-#include <algorithm>
-#include <cmath>
+#include <ros/console.h>
 
 namespace live_stiffness {
 namespace {
@@ -15,112 +14,101 @@ bool asNumber(XmlRpcValue& value, double& number) {
   return true;
 }
 
+bool asWhole(XmlRpcValue& value, int& number) {
+  double read;
+  if (!asNumber(value, read) || read != std::floor(read) || std::abs(read) > 1e9) return false;
+  number = static_cast<int>(read);
+  return true;
+}
+
+bool asText(XmlRpcValue& value, std::string& text) {
+  if (value.getType() != XmlRpcValue::TypeString) return false;
+  text = static_cast<std::string>(value);
+  return true;
+}
+
 }  // namespace
 
-bool ParameterReader::find(const std::string& key, XmlRpcValue& value) {
+ParameterReader::ParameterReader(const ros::NodeHandle& private_node, FaultList& faults) : faults_(faults) {
+  if (!ros::param::get(private_node.getNamespace(), values_)) values_ = XmlRpcValue();
+}
+
+XmlRpcValue* ParameterReader::find(const char* key) {
   asked_.insert(key);
-  return node_.getParam(key, value);
+  return values_.getType() == XmlRpcValue::TypeStruct && values_.hasMember(key) ? &values_[key] : nullptr;
 }
 
-void ParameterReader::wrongType(const std::string& key, const std::string& wanted) {
-  faults_.add("~" + key + ": must be " + wanted);
+void ParameterReader::wrongType(const char* key, const std::string& wanted) {
+  faults_.add(key + (": must be " + wanted));
 }
 
-double ParameterReader::number(const std::string& key, double otherwise, const Range& range) {
-  XmlRpcValue value;
-  double number = otherwise;
-  if (!find(key, value)) return otherwise;
-  if (!asNumber(value, number)) {
-    wrongType(key, "a number, " + range.text());
-    return otherwise;
-  }
-  faults_.check("~" + key, number, range);
-  return number;
+bool ParameterReader::number(const NumberParameter& parameter, double& value) {
+  XmlRpcValue* read = find(parameter.key);
+  if (read == nullptr) return false;
+  const bool is_number = asNumber(*read, value);
+  if (!is_number) wrongType(parameter.key, "a number, " + parameter.range.text());
+  return is_number;
 }
 
-bool ParameterReader::boolean(const std::string& key, bool otherwise) {
-  XmlRpcValue value;
-  if (!find(key, value)) return otherwise;
-  if (value.getType() == XmlRpcValue::TypeBoolean) return static_cast<bool>(value);
-  wrongType(key, "true or false, without quotes");
-  return otherwise;
+void ParameterReader::text(const char* key, std::string& value) {
+  XmlRpcValue* read = find(key);
+  if (read != nullptr && !asText(*read, value)) wrongType(key, "a text");
 }
 
-std::string ParameterReader::text(const std::string& key, const std::string& otherwise) {
-  XmlRpcValue value;
-  if (!find(key, value)) return otherwise;
-  if (value.getType() == XmlRpcValue::TypeString) return static_cast<std::string>(value);
-  wrongType(key, "a text");
-  return otherwise;
+template <class Element, class Read>
+void ParameterReader::list(const char* key, const std::string& wanted, Read read, std::vector<Element>& values) {
+  XmlRpcValue* found = find(key);
+  if (found == nullptr) return;
+  bool is_list = found->getType() == XmlRpcValue::TypeArray;
+  std::vector<Element> elements(is_list ? found->size() : 0);
+  for (size_t i = 0; i < elements.size(); ++i) is_list = is_list && read((*found)[static_cast<int>(i)], elements[i]);
+  if (is_list) values = elements;
+  else wrongType(key, wanted);
 }
 
-std::string ParameterReader::choice(const std::string& key, const std::string& otherwise,
-                                    const std::vector<std::string>& choices) {
-  const std::string value = text(key, otherwise);
-  if (std::find(choices.begin(), choices.end(), value) != choices.end()) return value;
-  std::string known;
-  for (const std::string& name : choices) known += (known.empty() ? "" : ", ") + name;
-  faults_.add("~" + key + " = " + value + ": must be one of " + known);
-  return otherwise;
+void ParameterReader::operator()(const NumberParameter& parameter, double& si) {
+  double value;
+  if (number(parameter, value)) si = value * parameter.unit;
 }
 
-std::vector<double> ParameterReader::numbers(const std::string& key, const std::vector<double>& otherwise,
-                                             const Range& range) {
-  XmlRpcValue value;
-  if (!find(key, value)) return otherwise;
-  std::vector<double> numbers;
-  bool is_list = value.getType() == XmlRpcValue::TypeArray;
-  for (int i = 0; is_list && i < value.size(); ++i) {
-    numbers.push_back(0.0);
-    is_list = asNumber(value[i], numbers.back());
-    if (is_list) faults_.check("~" + key + "[" + std::to_string(i) + "]", numbers.back(), range);
-  }
-  if (is_list) return numbers;
-  wrongType(key, "a list of numbers, each " + range.text());
-  return otherwise;
+void ParameterReader::operator()(const BooleanParameter& parameter, bool& value) {
+  XmlRpcValue* read = find(parameter.key);
+  if (read == nullptr) return;
+  if (read->getType() == XmlRpcValue::TypeBoolean) value = static_cast<bool>(*read);
+  else wrongType(parameter.key, "true or false, without quotes");
 }
 
-std::vector<std::string> ParameterReader::texts(const std::string& key) {
-  XmlRpcValue value;
-  std::vector<std::string> texts;
-  if (!find(key, value)) return texts;
-  bool is_list = value.getType() == XmlRpcValue::TypeArray;
-  for (int i = 0; is_list && i < value.size(); ++i) {
-    is_list = value[i].getType() == XmlRpcValue::TypeString;
-    if (is_list) texts.push_back(static_cast<std::string>(value[i]));
-  }
-  if (is_list) return texts;
-  wrongType(key, "a list of texts");
-  return {};
+void ParameterReader::operator()(const ChoiceParameter& parameter, std::string& value) { text(parameter.key, value); }
+
+void ParameterReader::operator()(const TextParameter& parameter, std::string& value) { text(parameter.key, value); }
+
+void ParameterReader::operator()(const FrameParameter& parameter, std::string& value) {
+  text(parameter.key, value);
+  value = withoutSlash(value);
 }
 
-std::vector<int> ParameterReader::indices(const std::string& key) {
-  constexpr double kLast = 1023.0;
-  std::vector<int> indices;
-  for (double index : numbers(key, {}, {0.0, kLast})) {
-    if (index != std::floor(index)) wrongType(key, "a list of whole numbers");
-    indices.push_back(static_cast<int>(index));
-  }
-  return indices;
+void ParameterReader::operator()(const NumbersParameter& parameter, std::vector<double>& values) {
+  list(parameter.key, "a list of numbers, each " + parameter.range.text(), asNumber, values);
 }
 
-std::vector<std::string> ParameterReader::unknown() const {
-  std::vector<std::string> all, unknown;
-  node_.getParamNames(all);
-  const std::string prefix = node_.getNamespace() + "/";
-  for (const std::string& name : all) {
-    if (name.compare(0, prefix.size(), prefix) != 0) continue;
-    const std::string key = name.substr(prefix.size());
-    if (asked_.count(key.substr(0, key.find('/'))) == 0) unknown.push_back(key);
-  }
-  return unknown;
+void ParameterReader::operator()(const NumbersParameter& parameter, std::vector<int>& values) {
+  list(parameter.key, "a list of whole numbers, each " + parameter.range.text(), asWhole, values);
 }
 
-void readFrames(ParameterReader& read, const std::string& body_key, const std::string& body_default, FrameNames& frames,
-                FaultList& faults) {
-  frames = {withoutSlash(read.text("base_frame", "base")), withoutSlash(read.text(body_key, body_default))};
+void ParameterReader::operator()(const TextsParameter& parameter, std::vector<std::string>& values) {
+  list(parameter.key, "a list of texts", asText, values);
+}
+
+void ParameterReader::warnOfUnknown(const std::string& node) const {
+  if (values_.getType() != XmlRpcValue::TypeStruct) return;
+  for (const auto& entry : values_)
+    if (asked_.count(entry.first) == 0)
+      ROS_WARN("parameter ~%s is not known to %s", entry.first.c_str(), node.c_str());
+}
+
+void checkFrames(const FrameNames& frames, const FrameParameter& body, FaultList& faults) {
   if (frames.base.empty() || frames.body.empty() || frames.base == frames.body)
-    faults.add("~base_frame = " + frames.base + ", ~" + body_key + " = " + frames.body +
+    faults.add(kBaseFrame.key + (" = " + frames.base) + ", " + body.key + " = " + frames.body +
                ": must be two different names");
 }
 

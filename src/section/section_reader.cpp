@@ -5,8 +5,6 @@
 namespace live_stiffness {
 namespace {
 
-constexpr double kMostAreaGrowth = 4.9e-6;  // 1/Pa; just below 1 / (2 atm), see Chambers::area_growth
-
 double readShearModulus(YamlMap& map, double youngs_modulus) {
   const bool has_ratio = map.has("poissons_ratio");
   const bool has_modulus = map.has("shear_modulus_pa");
@@ -39,8 +37,8 @@ void readStretchLaw(YamlMap& map, Material& material) {
 void readPressurised(YamlMap& map, CrossSection& section) {
   readStretchLaw(map, section.material);
   section.chambers.area_growth =
-      map.number("chamber_area_growth_per_pa", {-kMostAreaGrowth, kMostAreaGrowth}, 0.0);
-  section.material.pressure_stiffening = map.number("pressure_stiffening", {0.0, 10.0}, 0.0);
+      map.number("chamber_area_growth_per_pa", kAreaGrowthRange, 0.0);
+  section.material.pressure_stiffening = map.number("pressure_stiffening", kPressureStiffeningRange, 0.0);
   section.material.creep_share = map.number("creep_share", {0.0, 0.9}, 0.0);
   section.material.creep_time = map.number("creep_time_s", Range::positive(), 1.0);
 }

@@ -20,7 +20,7 @@ TEST(TipWrenchConvergence, FindsAPushThatBeganDuringADropOut) {
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   std::normal_distribution<double> normal;
   // An NDI Aurora's 0.48 mm and 0.30 deg, taken as the length of the error; per axis.
-  const TrackerNoise noise{0.48e-3 / std::sqrt(3.0), radians(0.30) / std::sqrt(3.0)};
+  const double position_noise = 0.48e-3 / std::sqrt(3.0), rotation_noise = radians(0.30) / std::sqrt(3.0);  // an Aurora
   const auto white = [&](double sigma) {
     const double x = normal(random), y = normal(random), z = normal(random);
     return Vector3(sigma * x, sigma * y, sigma * z);
@@ -39,7 +39,7 @@ TEST(TipWrenchConvergence, FindsAPushThatBeganDuringADropOut) {
     double time = 0.0;
     const auto see = [&](const Pose& X, int samples) {
       for (int k = 0; k < samples; ++k, time += 0.025)
-        estimator.update(pressures, {X.R * expSo3(white(noise.rotation)), X.p + white(noise.position)}, time);
+        estimator.update(pressures, {X.R * expSo3(white(rotation_noise)), X.p + white(position_noise)}, time);
     };
     see(free, 40);
     time += 0.5;

@@ -33,4 +33,8 @@ refuses stiffness_node '~model = best' '~pressure_unit = atm' '~heartbeat_hz = -
 refuses parallel_node '~length_unit = inch' '~length_timeout_s = 0' 'kind = serial' 'two different names' -- \
   _length_unit:=inch _length_timeout_s:=0.0 _platform_frame:=base _scene_file:="$scenes/paper_one_segment.yaml"
 refuses parallel_rig '~period_s = -1' '~height_m' 'scene_file is missing' -- _period_s:=-1.0 _height_m:=high
+rosparam set /rig_simulator/contact_force_n '[0.3, 0.1]'
+refuses rig_simulator '~program = square' '~seed = 1.5: must be a whole number' '~contact_force_n has 2' \
+  '~contact_ramp_s = 3' '~rotation_noise_deg = 30' 'scene_file is missing' -- _program:=square _seed:=1.5 \
+  _contact_ramp_s:=3.0 _rotation_noise_deg:=30.0
 refuses stiffness_node 'kind = parallel' 'parallel_node' -- _scene_file:="$scenes/stewart_gough.yaml"

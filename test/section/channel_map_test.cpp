@@ -39,7 +39,7 @@ TEST(ChannelMap, EvenRefusesWhatDoesNotDivide) {
 
 TEST(ChannelMap, ReportsAllFaultsAtOnce) {
   EXPECT_EQ(faultCount({}), 1u);
-  EXPECT_EQ(faultCount({0, -1, ChannelMap::kMaxChannels}), 2u);
+  EXPECT_EQ(faultCount({0, -1, kMaxChannels}), 2u);
   EXPECT_EQ(faultCount({0, 3, 3}), 2u);        // channels 1 and 2 feed nothing
   EXPECT_EQ(faultCount({-1, 1}), 2u);          // below zero, and channel 0 feeds nothing
   EXPECT_EQ(faultCount({0, 0, 1, 1, 2, 2}), 0u);

@@ -29,6 +29,7 @@ struct SimulatedRecording {
   // Of kPairs.
   Recording record(const Scene& truth) const {
     RigOptions options;
+    options.drop_out_probability = 0.0;
     options.channel_of_chamber = {0, 0, 1, 1, 2, 2};
     options.program = {program, amplitude, 12.0, 1};
     options.registration = registration();

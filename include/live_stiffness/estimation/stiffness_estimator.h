@@ -13,8 +13,14 @@ namespace live_stiffness {
 class SceneCreep;
 
 struct EstimatorOptions {
-  double update_threshold = 1000.0;  // re-solve when the 2-norm of the change of pressure exceeds it (13), Pa
-  std::vector<double> fractions = {0.5, 0.6, 0.7, 0.8, 1.0};  // of each segment, where stations are evaluated, 0 to 1
+  double update_threshold = kUpdateThreshold.standard;  // solve again when the change of pressure exceeds it (13), Pa
+  std::vector<double> fractions = kEllipsoidFractions.standard;  // of each segment, where stations are evaluated
+
+  template <class Options, class Visit>
+  static void forEachParameter(Options& options, Visit&& visit) {
+    visit(kUpdateThreshold, options.update_threshold);
+    visit(kEllipsoidFractions, options.fractions);
+  }
 };
 
 constexpr int kShapeSections = 20;  // of a segment, between the stations of an estimate's shape

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "live_stiffness/compliance/stiffness_model.h"
+#include "live_stiffness/estimation/contact_detector.h"
 #include "live_stiffness/estimation/tip_wrench_options.h"
 
 namespace live_stiffness {

@@ -12,7 +12,7 @@
 namespace live_stiffness {
 
 struct ParallelOptions {
-  double accuracy = 1e-9;  // relative, of pose and compliance; 1e-13 to 1e-2
+  double accuracy = kAccuracy.standard;  // relative, of pose and compliance
 };
 
 struct ParallelSolution {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "live_stiffness/conventions.h"
+#include "live_stiffness/parameters.h"
 
 namespace live_stiffness {
 
@@ -18,8 +18,6 @@ class ChannelMap {
   // Neighbouring chambers in groups of equal size, one for each channel: even(3, 6) is {0, 0, 1, 1, 2, 2}, even(n, n) the
   // identity. Throws ConfigurationError unless both are positive and chambers is a multiple of channels.
   static ChannelMap even(int channels, int chambers);
-
-  static constexpr int kMaxChannels = 1024;
 
   int channelCount() const { return channel_count_; }
   int chamberCount() const { return static_cast<int>(channel_of_chamber_.size()); }
