@@ -11,7 +11,7 @@ Scene hangingChain(int segments) {
   Scene scene = paperScene(1);
   const Body segment = scene.chain[0];
   for (int k = 1; k < segments; ++k) {
-    scene.chain.push_back(Link{0.006, 0.0});
+    scene.chain.emplace_back(Link{0.006, 0.0});
     scene.chain.push_back(segment);
   }
   scene.gravity = Vector3(0.0, 0.0, kStandardGravity);

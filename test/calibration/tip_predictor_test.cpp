@@ -24,7 +24,7 @@ Scene fullScene(StretchLaw law, int segments) {
     }
   }
   scene.gravity = Vector3(1.0, -2.0, 9.0);  // hanging, and leaning: nothing buckles
-  scene.chain.push_back(Link{0.0145, 0.0135});
+  scene.chain.emplace_back(Link{0.0145, 0.0135});
   scene.tip_offset = Vector3(0.001, 0.002, 0.003);
   return scene;
 }

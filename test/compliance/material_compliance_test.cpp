@@ -102,7 +102,7 @@ TEST(MaterialCompliance, IsMovedByARigidOffsetAndByNothingElse) {
   const Pressures pressures = bars(0.9, {1, 1, 0.3, 0.3, 0, 0});
   const Solved without(offset, 1e-9, pressures);
   offset.tip_offset = Vector3(0.01, -0.02, 0.03);
-  offset.chain.push_back(Link{0.005, 0.0});
+  offset.chain.emplace_back(Link{0.005, 0.0});
   const Solved with(offset, 1e-9, pressures);
   const Vector3 lever = without.solution.X_BT.R * Vector3(0.01, -0.02, 0.035);
   const Matrix6 expected = shiftCompliance(without.solution.material_compliance, lever);

@@ -20,8 +20,9 @@ TEST_F(PressureFaults, Stop) {
 }
 
 TEST_F(PressureFaults, JumpFromOneExtremeToTheOther) {
-  const Pressures left = pressuresOf({120e3, 120e3, 0.0, 0.0, 0.0, 0.0}), right = pressuresOf({0.0, 0.0, 0.0, 0.0, 120e3, 120e3});
-  for (const Pressures& values : {left, right, left, pressuresOf({0.0, 0.0, 0.0, 0.0, 0.0, 0.0}), right}) {
+  const std::vector<double> left = {120e3, 120e3, 0.0, 0.0, 0.0, 0.0}, right = {0.0, 0.0, 0.0, 0.0, 120e3, 120e3};
+  for (const std::vector<double>& each : {left, right, left, std::vector<double>(6, 0.0), right}) {
+    const Pressures values = pressuresOf(each);
     ASSERT_TRUE(recovers(values));
     StiffnessWorkspace workspace = model_.makeWorkspace();
     const Pose X_BT = model_.solve(values, Wrench::Zero(), workspace).X_BT;

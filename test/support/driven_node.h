@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "ros/conversions.h"
 #include "support/estimate_checks.h"
@@ -11,7 +12,7 @@
 
 namespace live_stiffness {
 
-inline Pressures pressuresOf(std::initializer_list<double> values) {
+inline Pressures pressuresOf(const std::vector<double>& values) {
   Pressures result(values.size());
   std::copy(values.begin(), values.end(), result.data());
   return result;

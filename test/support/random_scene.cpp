@@ -44,7 +44,7 @@ RandomScene randomScene(RandomSource& random, const RandomSceneLimits& limits) {
     segment.length = thickness * random.uniform(1.5, 12.0);
     segment.section = randomSection(random, thickness, modulus * random.uniform(0.7, 1.4));
     scene.chain.push_back(segment);
-    if (chance(random, 0.5)) scene.chain.push_back(Link{segment.length * random.uniform(0.0, 0.4),
+    if (chance(random, 0.5)) scene.chain.emplace_back(Link{segment.length * random.uniform(0.0, 0.4),
                                                         segment.mass() * random.uniform(0.0, 0.5)});
   }
   const double length = scene.length();
