@@ -63,6 +63,7 @@ TEST(Replay, EveryPressureIsAnsweredWithinTheThresholdByAnEstimateWithItsStamp) 
   ASSERT_TRUE(waitFor(
       [&] {
         return clock >= recorded.end - ros::Duration(0.1) && !estimates.empty() &&
+               estimates.back()->header.stamp >= recorded.pressures.rbegin()->first - ros::Duration(0.2) &&
                !errors.empty() && errors.back()->header.stamp >= recorded.poses.rbegin()->first - ros::Duration(0.2);
       },
       150.0))

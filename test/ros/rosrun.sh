@@ -9,5 +9,6 @@ fi
 set +u; source "$build/devel/setup.bash"; set -u
 cd /
 for program in stiffness_solve stiffness_map replay; do
-  rosrun live_stiffness $program --help | grep -q "^$program "
+  help=$(rosrun live_stiffness $program --help)  # whole, since a program whose reader leaves early has failed
+  grep -q "^$program " <<<"$help"
 done
