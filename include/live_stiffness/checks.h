@@ -111,7 +111,7 @@ class FaultList {
   // Checks all parameters of a struct that has forEachParameter().
   template <class Options>
   void checkAll(const Options& options) {
-    Options::forEachParameter(options, [this](const auto& parameter, const auto& value) { check(parameter, value); });
+    Options::forEachParameter(options, [this](const auto& parameter, const auto& value) { this->check(parameter, value); });
   }
   bool empty() const { return faults_.empty(); }
   const std::vector<std::string>& faults() const { return faults_; }
