@@ -9,7 +9,7 @@ import sys
 import tempfile
 
 ORDER = ["", "lie", "section", "rod", "compliance", "analysis", "estimation", "parallel", "calibration", "rig", "ros",
-         "parallel_ros", "bags", "programs"]
+         "bags", "programs"]
 # Headers of ROS packages, and the package's own generated messages (UpperCamel).
 ROS = re.compile(r"(ros|rosbag|tf|topic_tools|diagnostic_updater|[a-z0-9_]+_msgs)/|tf2|live_stiffness/[A-Z]")
 

@@ -38,7 +38,7 @@ inline const ChoiceParameter kPressureUnit{
     "pressure_unit", "Pa", {"Pa", "kPa", "bar", "mbar", "psi"}, "Unit of the numbers on the topic."};
 inline const ChoiceParameter kPressureReference{
     "pressure_reference", "gauge", {"gauge", "absolute"},
-    "From absolute pressures atmospheric_pressure_pa is subtracted."};
+    "absolute: the pressure of the atmosphere is subtracted (of the node: atmospheric_pressure_pa; of programs: 101325 Pa)."};
 inline constexpr NumberParameter kAtmosphericPressure{
     "atmospheric_pressure_pa", kAtmospherePa, {50e3, 120e3}, "Pressure around the robot, for absolute pressures."};
 inline constexpr TextsParameter kPressureTopics{
@@ -84,14 +84,14 @@ inline constexpr NumberParameter kTipWrenchTimeout{
 // A filter that estimates the external wrench at the tip point from tracker and model; docs/estimation.md says how it
 // works. Standard deviations, forces and positions are for each axis.
 inline constexpr NumberParameter kWrenchComponents{
-    "wrench_components", 3, {3, 6}, "3: a pure force at the tip point; 6: force and moment."};
+    "wrench_components", 3, {3, 6}, "3: a pure force at the tip point; 6: force and moment. No other number."};
 inline constexpr NumberParameter kTrackerPositionNoise{
     "tracker_position_noise_m", 2e-3, {1e-6, 0.1},
     "White noise of the tracker and of what the model does not follow from sample to sample. An NDI Aurora alone has "
     "0.28e-3; silicone arms in motion are millimetres from their model."};
 inline constexpr NumberParameter kTrackerRotationNoise{
     "tracker_rotation_noise_deg", 28.64788975654116, {1e-3, 57.0},
-    "The same of its rotation; an NDI Aurora alone has 0.17. By default rotation hardly counts, since the tip of a "
+    "The same of its rotation (0.5 rad); an NDI Aurora alone has 0.17. By default rotation hardly counts, since the tip of a "
     "silicone arm turns about its own axis as no model says. Lower it for wrench_components: 6.", Live::kNo, kDegree};
 inline constexpr NumberParameter kContactForce{
     "contact_force_n", 0.3, {1e-3, 1e4}, "How large to expect the force in contact."};
