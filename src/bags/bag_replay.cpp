@@ -29,7 +29,7 @@ class TopicWatch {
   bool take(const Parsed<Value>& reading, const ros::Time& stamp) {
     if (!reading.ok()) return reject(reading.error);
     if (report_.usable++ > 0) {
-      const double interval = (stamp - last_).toSec();
+      const double interval = secondsBetween(last_, stamp);
       report_.backward += interval < 0.0;
       intervals_.push_back(interval);
       if (interval > report_.longest_gap) report_.longest_gap = interval, gap_start_ = last_;
@@ -44,7 +44,7 @@ class TopicWatch {
   TopicReport report(const ros::Time& begin) {
     const double interval = quantile(intervals_, 0.5);
     if (interval > 0.0) report_.rate = 1.0 / interval;
-    if (report_.longest_gap > 0.0) report_.gap_start = (gap_start_ - begin).toSec();
+    if (report_.longest_gap > 0.0) report_.gap_start = secondsBetween(begin, gap_start_);
     return report_;
   }
 
@@ -85,7 +85,7 @@ class Replay : public BagListener {
     is_stale_ = false;
     pressure_stamp_ = stamp;
     StiffnessEstimator::Outcome outcome = estimator_.setPressures(map->expand(reading.value), stamp.toSec());
-    const bool is_due = (stamp - estimate_stamp_).toSec() >= 1.0 / options_.heartbeat || stamp < estimate_stamp_;
+    const bool is_due = secondsBetween(estimate_stamp_, stamp) >= 1.0 / options_.heartbeat || stamp < estimate_stamp_;
     if (outcome == StiffnessEstimator::Outcome::kUnchanged && is_due) outcome = estimator_.solve();
     react(outcome);
     if (estimator_.estimate() != nullptr && !is_stale_)
@@ -196,7 +196,7 @@ ReplayReport replayBag(const std::string& bag, const std::string& out, const Sce
   Replay replay(out, scene, model, options);
   const BagSpan span = readBag(bag, options.format, replay, progress);
   ReplayReport report = replay.report(span.begin);
-  report.duration = (span.end - span.begin).toSec();
+  report.duration = secondsBetween(span.begin, span.end);
   if (report.pressures.usable == 0)
     throw ConfigurationError("bag " + bag, {"no usable pressures on " + options.format.pressure_topic +
                                             (report.pressures.unusable > 0 ? ": " + report.pressures.first_fault

@@ -25,11 +25,13 @@ class AnyTypeSubscriber {
   void subscribe(const ros::NodeHandle& node, const std::string& topic, int queue_size,
                  void (Receiver::*callback)(const AnyMessage&), Receiver* receiver) {
     node_ = node;
-    options_.initByFullCallbackType<const AnyMessage&>(topic, queue_size,
-                                                       std::bind(callback, receiver, std::placeholders::_1));
+    options_.initByFullCallbackType<const AnyMessage&>(topic, queue_size, [=](const AnyMessage& message) {
+      had_publisher_ = true;  // also one that is gone before the timer sees it
+      (receiver->*callback)(message);
+    });
     options_.transport_hints = ros::TransportHints().tcpNoDelay();
     subscriber_ = node_.subscribe(options_);
-    timer_ = node_.createWallTimer(ros::WallDuration(1.0), &AnyTypeSubscriber::onTimer, this);
+    timer_ = node_.createWallTimer(ros::WallDuration(0.1), &AnyTypeSubscriber::onTimer, this);
   }
 
  private:

@@ -4,6 +4,8 @@
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
 #include <ros/time.h>
 
+#include "ros/parsed.h"
+
 namespace live_stiffness {
 
 class ClockStatus {
@@ -12,10 +14,10 @@ class ClockStatus {
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
     using diagnostic_msgs::DiagnosticStatus;
     const ros::WallDuration shown(2.0), longest(0.5);
-    const ros::Duration jump(-0.5);  // smaller jumps are corrections of the wall clock
+    const double jump = -0.5;  // smaller jumps are corrections of the wall clock
     const ros::Time now = ros::Time::now();
     const ros::WallTime wall = ros::WallTime::now();
-    if (now - last_ < jump) jumped_ = wall;
+    if (secondsBetween(last_, now) < jump) jumped_ = wall;
     if (now != last_) moved_ = wall;
     last_ = now;
     if (now.isZero()) status.summary(DiagnosticStatus::WARN, "simulated time has not begun: nothing publishes /clock");

@@ -32,7 +32,7 @@ void ContactOutput::update(PressuresRef pressures, const Wrench& known, const Po
 bool ContactOutput::inContact() const {
   const TipWrenchEstimate* estimate = estimator_->estimate();
   return estimate != nullptr && estimate->contact &&
-         std::abs((ros::Time::now() - updated_).toSec()) <= parameters_.pose_timeout;  // time may have jumped back
+         std::abs(secondsBetween(updated_, ros::Time::now())) <= parameters_.pose_timeout;  // time may have jumped back
 }
 
 double ContactOutput::forceDeviation() const {

@@ -80,6 +80,9 @@ std::string pressureError(double value, const PressureFormat& format) {
   if (format.absolute && value < 0.0)
     return "is " + numberText(value) + ": an absolute pressure must not be negative; is it gauge? "
            "(set ~pressure_reference: gauge)";
+  constexpr double kLargest = 1e8;  // Pa; a glitch beyond would stay in the model of creep for long
+  if (!(std::abs(format.gauge(value)) <= kLargest))
+    return "is " + numberText(format.gauge(value)) + " Pa: must be within " + numberText(kLargest) + " Pa; in another unit?";
   return "";
 }
 

@@ -30,7 +30,7 @@ bool isDue(ros::WallTime& last, double seconds) {
 std::optional<ros::Time> InputStatus::accept(const ros::Time& stamp, const ros::Time& now) {
   checkClock(now);
   if (!arrivesInOrder(stamp)) return std::nullopt;
-  const double interval = accepted_ > 0 ? (now - last_accepted_).toSec() : 0.0;
+  const double interval = accepted_ > 0 ? secondsBetween(last_accepted_, now) : 0.0;
   if (interval > 0.0) {
     const double blend = rate_ > 0.0 ? 0.1 : 1.0;
     rate_ = 1.0 / ((1.0 - blend) * (rate_ > 0.0 ? 1.0 / rate_ : 0.0) + blend * interval);
@@ -56,7 +56,7 @@ ros::Time InputStatus::stampFor(const ros::Time& stamp, const ros::Time& now) {
   foreign_offset_ = 0.0;
   if (stamp.isZero()) return now;
   if (now.isZero()) return stamp;  // simulated time has not begun: the first message overtook /clock
-  const double offset = (stamp - now).toSec();
+  const double offset = secondsBetween(now, stamp);
   if (offset >= -kForeign && offset <= kFuture) return stamp;
   foreign_offset_ = offset;
   if (isDue(stamp_logged_, 60.0))
@@ -74,7 +74,7 @@ void InputStatus::countLost(const std::string& publisher, uint32_t sequence) {
 }
 
 bool InputStatus::arrivesInOrder(const ros::Time& stamp) {
-  const double step = last_own_stamp_.isZero() || stamp.isZero() ? 0.0 : (stamp - last_own_stamp_).toSec();
+  const double step = last_own_stamp_.isZero() || stamp.isZero() ? 0.0 : secondsBetween(last_own_stamp_, stamp);
   if (step < 0.0 && step >= -kReordered) {
     ++out_of_order_;
     overtaken_ = ros::WallTime::now();
@@ -85,13 +85,13 @@ bool InputStatus::arrivesInOrder(const ros::Time& stamp) {
 }
 
 void InputStatus::checkClock(const ros::Time& now) {
-  if (accepted_ > 0 && (now - last_accepted_).toSec() < -kJump) restart();
+  if (accepted_ > 0 && secondsBetween(last_accepted_, now) < -kJump) restart();
 }
 
 double InputStatus::age(const ros::Time& now) const {
   constexpr double kNever = 1e9;
-  if (accepted_ == 0 || (now - last_accepted_).toSec() < -kJump) return kNever;
-  return (now - last_stamp_).toSec();
+  if (accepted_ == 0 || secondsBetween(last_accepted_, now) < -kJump) return kNever;
+  return secondsBetween(last_stamp_, now);
 }
 
 std::string InputStatus::warning() const {

@@ -8,7 +8,7 @@
 namespace live_stiffness {
 
 struct StiffnessNode::Reconfiguration {
-  Reconfiguration(StiffnessNode& node, const ros::NodeHandle& private_node) : node(node), server(private_node) {
+  Reconfiguration(StiffnessNode& node, const ros::NodeHandle& private_node) : node(node), server(mutex, private_node) {
     server.getConfigDefault(config);
     config.__fromServer__(private_node);  // the parameters were loaded from there
     server.setCallback([this](StiffnessConfig& wanted, uint32_t level) { onChange(wanted, level); });
@@ -17,6 +17,7 @@ struct StiffnessNode::Reconfiguration {
 
   StiffnessNode& node;
   StiffnessConfig config;  // the present one
+  boost::recursive_mutex mutex;  // ours: with its own, updateConfig() warns of deadlocks
   dynamic_reconfigure::Server<StiffnessConfig> server;
 };
 

@@ -55,7 +55,7 @@ class ParameterReader {
 
   XmlRpc::XmlRpcValue values_;
   FaultList& faults_;
-  std::set<std::string> asked_{"exit_without_master"};  // this one by runNode()
+  std::set<std::string> asked_{"exit_without_master", "diagnostic_period"};  // by runNode() and diagnostic_updater
 };
 
 // Adds a fault unless base and body are two different names. body: the parameter that names it.

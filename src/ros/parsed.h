@@ -3,6 +3,7 @@
 
 #include <ros/time.h>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -18,5 +19,10 @@ struct Parsed {
 
   bool ok() const { return error.empty(); }
 };
+
+// From `earlier` to `later`, s. The difference of two ros::Time throws beyond 68 years, and a stamp may be garbage.
+inline double secondsBetween(const ros::Time& earlier, const ros::Time& later) {
+  return 1e-9 * static_cast<double>(static_cast<int64_t>(later.toNSec() - earlier.toNSec()));
+}
 
 }  // namespace live_stiffness

@@ -42,7 +42,7 @@ std::optional<Parsed<Pressures>> PressureInput::chamberPressures(Parsed<Pressure
 // If one channel is silent or bad, all pressures are stale.
 bool PressureInput::allHeard(const ros::Time& now) const {
   return std::all_of(heard_.begin(), heard_.end(), [&](const ros::Time& heard) {
-    return !heard.isZero() && std::abs((now - heard).toSec()) <= parameters_.pressure_timeout;
+    return !heard.isZero() && std::abs(secondsBetween(heard, now)) <= parameters_.pressure_timeout;
   });
 }
 

@@ -40,7 +40,7 @@ class TrackerInput {
  private:
   struct Tf;
 
-  double unchangedFor() const { return (ros::Time::now() - last_change_).toSec(); }  // s
+  double unchangedFor() const { return secondsBetween(last_change_, ros::Time::now()); }  // s
   std::optional<TipMeasurement> accept(const Parsed<TrackedPose>& parsed);
   // Why the pose cannot be used; empty: it can.
   std::string errorOf(const TrackedPose& tracked, const Pose& X_BT) const;

@@ -5,7 +5,7 @@
 #include <live_stiffness/RodLengths.h>
 #include <std_msgs/Float32MultiArray.h>
 #include <std_msgs/Float64MultiArray.h>
-#include <std_msgs/String.h>
+#include <std_msgs/Float64.h>
 
 #include <limits>
 #include <vector>
@@ -79,7 +79,9 @@ TEST(Conversions, BadPressuresAreErrorsThatNameTheChannel) {
   absolute.absolute = true;
   EXPECT_NE(readPressures(onTheWire(message), absolute).error.find("negative"), std::string::npos);
   EXPECT_TRUE(readPressures(onTheWire(message), PressureFormat()).ok()) << "a gauge pressure may be negative";
-  EXPECT_NE(readPressures(onTheWire(std_msgs::String()), PressureFormat()).error.find("std_msgs/String"),
+  message.data[0] = 3e38;
+  EXPECT_NE(readPressures(onTheWire(message), PressureFormat()).error.find("1e+08"), std::string::npos);
+  EXPECT_NE(readPressures(onTheWire(std_msgs::Float64()), PressureFormat()).error.find("std_msgs/Float64:"),
             std::string::npos);
 }
 
@@ -143,7 +145,7 @@ TEST(Conversions, UnusablePosesAreErrors) {
   far.pose.orientation.w += 1.0;
   not_finite.pose.position.y = kNaN;
   for (const auto& pose : {zero, far, not_finite}) EXPECT_FALSE(readPose(onTheWire(pose), 1.0).ok());
-  EXPECT_FALSE(readPose(onTheWire(std_msgs::String()), 1.0).ok());
+  EXPECT_FALSE(readPose(onTheWire(std_msgs::Float64()), 1.0).ok());
   auto flipped = toPoseStamped(somePose(), ros::Time(1.0), "aurora");
   auto& q = flipped.pose.orientation;
   q.w = -q.w, q.x = -q.x, q.y = -q.y, q.z = -q.z;
@@ -187,7 +189,7 @@ TEST(Conversions, RodLengthsAreReadInTheirUnit) {
   }
   bare.data[1] = kNaN;
   EXPECT_NE(readRodLengths(onTheWire(bare), 1.0).error.find("rod 2"), std::string::npos);
-  EXPECT_NE(readRodLengths(onTheWire(std_msgs::String()), 1.0).error.find("live_stiffness/RodLengths"),
+  EXPECT_NE(readRodLengths(onTheWire(std_msgs::Float64()), 1.0).error.find("live_stiffness/RodLengths"),
             std::string::npos);
 }
 

@@ -17,6 +17,16 @@ TEST(InputStatus, KeepsAStampNearRosTimeAndReplacesADevicesClock) {
   EXPECT_NE(status.warning().find("behind"), std::string::npos) << status.warning();
 }
 
+// The difference of two ros::Time throws beyond 68 years.
+TEST(InputStatus, ReplacesAStampThatIsGarbage) {
+  for (uint32_t garbage : {4000000000u, 4294967295u}) {
+    InputStatus status("input");
+    EXPECT_EQ(status.accept(ros::Time(garbage, 0), kNow), kNow);
+    EXPECT_NE(status.warning().find("ahead"), std::string::npos) << status.warning();
+    EXPECT_EQ(status.accept(kNow, kNow), kNow);
+  }
+}
+
 // In a replay the first message may arrive before the first /clock, when ROS time is still zero.
 TEST(InputStatus, KeepsTheStampWhileSimulatedTimeHasNotBegun) {
   InputStatus status("input");
