@@ -102,7 +102,11 @@ within 30 "the node does not end with status 3" grep -q "stiffness_node.*exit co
 start_master
 rosparam load "$work/parameters.yaml"
 within 30 "the node does not come back" rosnode ping -c 1 /stiffness_node
-start_rig rig_simulator  # that of the launch file goes on, but is not known to the new master
+# The rig of the launch file is not known to the new master. Two of one name would end each other.
+old_rig=$(sed -n 's/.*rig_simulator-1\]: started with pid \[\([0-9]*\)\].*/\1/p' "$work/roslaunch.log")
+kill "$old_rig"
+within 20 "the old rig does not end" bash -c "! kill -0 $old_rig"
+start_rig rig_simulator
 within 30 "no fresh estimate by way of the new master" is_fresh
 kill $rig; wait $rig || true
 kill -INT $launch; wait $launch || fail "roslaunch: exit status $?"
