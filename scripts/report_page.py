@@ -41,7 +41,7 @@ def quickest(rows):
             cells = [text for row in (good[:1] + others[:1]) for text in
                      (named(row), us(row["median_us"]), small(largest_error(row)))]
             lines.append([start, "%g" % bound] + cells)
-    return table(("", "error below", "quickest", "us", "its error", "quickest opponent", "us", "its error"), lines)
+    return table(("", "error below", "quickest", "us", "its error", "quickest other method", "us", "its error"), lines)
 
 
 def all_methods(rows):

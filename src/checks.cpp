@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -41,6 +42,13 @@ bool ChoiceParameter::has(const std::string& name) const {
   return std::find(choices.begin(), choices.end(), name) != choices.end();
 }
 
+std::string ChoiceParameter::text() const {
+  std::string text;
+  for (const std::string& name : choices)
+    if (!name.empty()) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
 void FaultList::check(const std::string& name, double value, const Range& range) {
   if (!range.contains(value)) add(name + " = " + numberText(value) + ": must be " + range.text());
 }
@@ -55,11 +63,7 @@ void FaultList::check(const NumberParameter& parameter, double value) {
 }
 
 void FaultList::check(const ChoiceParameter& parameter, const std::string& value) {
-  if (parameter.has(value)) return;
-  std::string known;
-  for (const std::string& name : parameter.choices)
-    if (!name.empty()) known += (known.empty() ? "" : ", ") + name;
-  add(std::string(parameter.key) + " = " + value + ": must be one of " + known);
+  if (!parameter.has(value)) add(std::string(parameter.key) + " = " + value + ": must be one of " + parameter.text());
 }
 
 void FaultList::throwIfAny() const {
@@ -67,9 +71,12 @@ void FaultList::throwIfAny() const {
 }
 
 std::string readTextFile(const std::string& subject, const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
+    throw ConfigurationError(subject + " " + path, {"cannot be read: it is a folder; must be the path of a file"});
   std::ifstream file(path);
   std::ostringstream text;
-  text << file.rdbuf();  // of a folder this fails; of an empty file only the formatting flag does
+  text << file.rdbuf();  // of an empty file only the formatting flag says failure
   if (!file.is_open() || file.bad() || text.bad())
     throw ConfigurationError(subject + " " + path, {"cannot be read: must be the path of a file"});
   return text.str();

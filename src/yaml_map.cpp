@@ -43,10 +43,10 @@ double YamlMap::readNumber(const YAML::Node& node, const std::string& name, cons
   return std::nan("");
 }
 
-double YamlMap::number(const std::string& key, const Range& range, std::optional<double> otherwise) {
+double YamlMap::number(const std::string& key, const Range& range, std::optional<double> default_value) {
   const YAML::Node node = find(key);
   if (node.IsDefined()) return readNumber(node, name(key), range);
-  if (otherwise) return *otherwise;
+  if (default_value) return *default_value;
   faults_.add(name(key) + " is missing: must be a number, " + range.text() + lineOf(node_));
   return std::nan("");
 }
@@ -75,12 +75,12 @@ Vector3 YamlMap::vector(const std::string& key) {
   return values.size() == 3 ? Vector3(values[0], values[1], values[2]) : Vector3(Vector3::Zero());
 }
 
-std::string YamlMap::text(const std::string& key, const std::string& otherwise) {
+std::string YamlMap::text(const std::string& key, const std::string& default_value) {
   const YAML::Node node = find(key);
-  if (!node.IsDefined()) return otherwise;
+  if (!node.IsDefined()) return default_value;
   if (node.IsScalar() && !node.Scalar().empty()) return node.Scalar();
   faults_.add(name(key) + ": must be a non-empty text" + lineOf(node));
-  return otherwise;
+  return default_value;
 }
 
 void YamlMap::fault(const std::string& message) {

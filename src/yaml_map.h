@@ -23,12 +23,12 @@ class YamlMap {
   YamlMap(const YAML::Node& node, std::string path, FaultList& faults);
 
   // A number in `range`; a fault and NaN otherwise. A missing key takes the default, or is a fault without one.
-  double number(const std::string& key, const Range& range, std::optional<double> otherwise = std::nullopt);
+  double number(const std::string& key, const Range& range, std::optional<double> default_value = std::nullopt);
   // A list of finite numbers, of exactly `size` entries unless size is negative. Empty after a fault.
   std::vector<double> numbers(const std::string& key, int size);
   // Three finite numbers; zero after a fault.
   Vector3 vector(const std::string& key);
-  std::string text(const std::string& key, const std::string& otherwise);
+  std::string text(const std::string& key, const std::string& default_value);
   YAML::Node child(const std::string& key);  // undefined node when missing
   bool has(const std::string& key) const;
 

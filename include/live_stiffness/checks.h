@@ -36,7 +36,7 @@ struct Range {
   static constexpr double kBeyond = std::numeric_limits<double>::infinity();
 };
 
-// What is made anew when a parameter of a running node changes, as a level of dynamic_reconfigure; kNo: it cannot be
+// What is made again when a parameter of a running node changes, as a level of dynamic_reconfigure; kNo: it cannot be
 // changed then.
 struct Live {
   enum Level : unsigned { kNo = 0, kDisplay = 1, kContact = 2, kRobot = 4 };
@@ -68,6 +68,7 @@ struct ChoiceParameter {
   Live::Level live = Live::kNo;
 
   bool has(const std::string& name) const;  // among the choices
+  std::string text() const;                 // for people: all that are not empty, with commas between
 };
 struct TextParameter {
   const char* key;

@@ -26,7 +26,7 @@ class TopicWatch {
 
   // True if the reading can be used.
   template <class Value>
-  bool take(const Parsed<Value>& reading, const ros::Time& stamp) {
+  bool accept(const Parsed<Value>& reading, const ros::Time& stamp) {
     if (!reading.ok()) return reject(reading.error);
     if (report_.usable++ > 0) {
       const double interval = secondsBetween(last_, stamp);
@@ -81,13 +81,13 @@ class Replay : public BagListener {
       return;
     }
     const ros::Time stamp = stampOf(reading.stamp);
-    if (!pressures_.take(reading, stamp)) return;
+    if (!pressures_.accept(reading, stamp)) return;
     is_stale_ = false;
     pressure_stamp_ = stamp;
     StiffnessEstimator::Outcome outcome = estimator_.setPressures(map->expand(reading.value), stamp.toSec());
     const bool is_due = secondsBetween(estimate_stamp_, stamp) >= 1.0 / options_.heartbeat || stamp < estimate_stamp_;
     if (outcome == StiffnessEstimator::Outcome::kUnchanged && is_due) outcome = estimator_.solve();
-    react(outcome);
+    onSolved(outcome);
     if (estimator_.estimate() != nullptr && !is_stale_)
       history_.add({stamp.toSec(), estimator_.pressures(), estimator_.estimate()->solution.X_BT});
   }
@@ -95,7 +95,7 @@ class Replay : public BagListener {
   void onPose(const Parsed<TrackedPose>& reading, const ros::Time& recorded) override {
     recorded_ = recorded;
     const ros::Time stamp = stampOf(reading.stamp);
-    if (!poses_.take(reading, stamp) || is_stale_ || estimator_.estimate() == nullptr || history_.empty()) return;
+    if (!poses_.accept(reading, stamp) || is_stale_ || estimator_.estimate() == nullptr || history_.empty()) return;
     const Pose measured = options_.registration.tipPose(reading.value.pose);
     const double delay = options_.registration.tracker_delay;
     const Pose predicted =
@@ -114,8 +114,8 @@ class Replay : public BagListener {
     }
     const Pose* X_BT = estimator_.estimate() ? &estimator_.estimate()->solution.X_BT : nullptr;
     const Parsed<Wrench> reading = readWrench(message.value, options_.frames, X_BT);
-    if (!wrenches_.take(reading, stampOf(reading.stamp))) return;
-    if (!is_stale_) react(estimator_.setTipWrench(reading.value));
+    if (!wrenches_.accept(reading, stampOf(reading.stamp))) return;
+    if (!is_stale_) onSolved(estimator_.setTipWrench(reading.value));
   }
 
   // Call at the end: closes the bag and gives it its name.
@@ -153,7 +153,7 @@ class Replay : public BagListener {
   }
   ros::Time stampOf(const ros::Time& stamp) const { return stamp.isZero() ? recorded_ : stamp; }
 
-  void react(StiffnessEstimator::Outcome outcome) {
+  void onSolved(StiffnessEstimator::Outcome outcome) {
     if (outcome == StiffnessEstimator::Outcome::kUnchanged) return;
     if (outcome == StiffnessEstimator::Outcome::kFailed) {
       is_stale_ = true;

@@ -43,7 +43,7 @@ class RegistrationBuffer {
   // interpolated, and that the newest may be older than a pose.
   RegistrationBuffer(const StiffnessModel& model, double capacity, double largest_gap);
 
-  // Gauge pressures, Pa, one per chamber; time: s. When it goes back by more than a second the clock was set anew, and
+  // Gauge pressures, Pa, one per chamber; time: s. When it goes back by more than a second the clock was set back, and
   // all is forgotten.
   void addPressures(PressuresRef pressures, double time);
   // X_AS: finite. tip_wrench: known dead wrench at T, base axes. A pose equal to the last one is left out: a tracker

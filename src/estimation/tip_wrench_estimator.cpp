@@ -79,7 +79,7 @@ std::string TipWrenchEstimator::statusText() const {
       if (!status_.ok()) return model().describe(status_);
       return "pose or time is not usable: must be finite, the rotation orthonormal; sample left out";
     case TipWrenchCode::kTimeBackwards: return "time does not increase: sample left out";
-    case TipWrenchCode::kRestarted: return "time jumped back by more than 1 s: estimation began anew";
+    case TipWrenchCode::kRestarted: return "time jumped back by more than 1 s: estimation started again";
     case TipWrenchCode::kOutlier:
       return "pose is " + numberText(estimate_.innovation) + " standard deviations from what was expected (gate " +
              numberText(kGate) + "): left out; if it is right, raise the noise parameters or check the registration";
@@ -90,7 +90,7 @@ std::string TipWrenchEstimator::statusText() const {
   return "unknown";
 }
 
-// Refuses what is not usable, and begins anew where time jumped back.
+// Refuses what is not usable, and starts again where time jumped back.
 bool TipWrenchEstimator::accept(PressuresRef pressures, double time) {
   status_ = {};
   code_ = TipWrenchCode::kInvalidInput;

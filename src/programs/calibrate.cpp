@@ -14,6 +14,7 @@
 #include "calibration/scene_text.h"
 #include "live_stiffness/checks.h"
 #include "estimation/tracker_delay.h"
+#include "parameter_options.h"
 #include "part_file.h"
 #include "live_stiffness/rod/scene_file.h"
 #include "recording_reader.h"
@@ -63,8 +64,6 @@ po::options_description describe(Arguments& a) {
     ("tracker-delay-s", po::value(&a.tracker_delay)->default_value(0.0),
      "delay of the tracker relative to pressures and force sensor; register_recording --fit-delay finds it")
     ("channels", po::value(&a.channels), "pressure channels (default: those of the recording)")
-    ("model", po::value(&a.model), "lpcc, npcc, lcm or ncm")
-    ("stepping", po::value(&a.stepping), "fixed_step, continuous or linear")
     ("position-sigma-mm", po::value(&a.position_mm)->default_value(0.5), "first guess of model and tracker error")
     ("rotation-sigma-deg", po::value(&a.rotation_deg)->default_value(1.0), "the same")
     ("no-orientation", po::bool_switch(&a.no_orientation), "fit positions only")
@@ -77,6 +76,8 @@ po::options_description describe(Arguments& a) {
     ("residuals", po::value(&a.residuals), "write a CSV of residuals here, for scripts/plot_calibration")
     ("rows", po::value(&a.rows), "write a CSV of the compliance tables' rows here, measured, fitted and left out")
     ("quiet,q", po::bool_switch(&a.quiet), "no progress display");
+  addOption(options, kModel, a.model);
+  addOption(options, kStepping, a.stepping);
   return options;
 }
 

@@ -34,7 +34,8 @@ inline void addOption(boost::program_options::options_description& options, cons
                       std::string& field) {
   auto* option = boost::program_options::value(&field);
   if (!field.empty()) option->default_value(field);
-  options.add_options()(optionName(parameter.key).c_str(), option, parameter.meaning);
+  const std::string meaning = parameter.meaning + (" One of " + parameter.text() + ".");
+  options.add_options()(optionName(parameter.key).c_str(), option, meaning.c_str());
 }
 
 // Options for all parameters of a struct that has forEachParameter().

@@ -19,7 +19,7 @@ PressureInput::PressureInput(const NodeParameters& parameters)
       status_({"chamber_pressures", "pressures", "channels", "; see ~channel_of_chamber", channel_map_.channelCount(),
                parameters.pressure_timeout}),
       channels_(Pressures::Zero(parameters.pressure_topics.size())),
-      heard_(parameters.pressure_topics.size()),
+      arrivals_(parameters.pressure_topics.size()),
       stamps_(parameters.pressure_topics.size()) {}
 
 void PressureInput::updateChannels() {
@@ -40,9 +40,9 @@ std::optional<Parsed<Pressures>> PressureInput::chamberPressures(Parsed<Pressure
 }
 
 // If one channel is silent or bad, all pressures are stale.
-bool PressureInput::allHeard(const ros::Time& now) const {
-  return std::all_of(heard_.begin(), heard_.end(), [&](const ros::Time& heard) {
-    return !heard.isZero() && std::abs(secondsBetween(heard, now)) <= parameters_.pressure_timeout;
+bool PressureInput::isComplete(const ros::Time& now) const {
+  return std::all_of(arrivals_.begin(), arrivals_.end(), [&](const ros::Time& arrival) {
+    return !arrival.isZero() && std::abs(secondsBetween(arrival, now)) <= parameters_.pressure_timeout;
   });
 }
 
@@ -52,13 +52,13 @@ std::optional<Parsed<Pressures>> PressureInput::readChannel(const sensor_msgs::F
   if (pressure.ok()) {
     const ros::Time now = ros::Time::now();
     channels_[channel] = pressure.value;
-    heard_[channel] = now;
+    arrivals_[channel] = now;
     stamps_[channel] = pressure.stamp;
-    if (!allHeard(now)) return std::nullopt;
+    if (!isComplete(now)) return std::nullopt;
     all.value = channels_;
     all.stamp = *std::max_element(stamps_.begin(), stamps_.end());
   } else {
-    heard_[channel] = ros::Time();
+    arrivals_[channel] = ros::Time();
     all.error = parameters_.pressure_topics[channel] + ": " + pressure.error;
   }
   return chamberPressures(std::move(all), "");

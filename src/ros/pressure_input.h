@@ -33,14 +33,14 @@ class PressureInput {
 
  private:
   std::optional<Parsed<Pressures>> chamberPressures(Parsed<Pressures> channels, const std::string& publisher);
-  bool allHeard(const ros::Time& now) const;
+  bool isComplete(const ros::Time& now) const;
 
   const NodeParameters& parameters_;
   ChannelMap channel_map_;
   ArrayStatus status_;
   Pressures channels_;             // newest of each of ~pressure_topics
-  std::vector<ros::Time> heard_;   // arrival of the newest good message of each; zero: none since the last bad one
-  std::vector<ros::Time> stamps_;  // of the newest message of each
+  std::vector<ros::Time> arrivals_;  // of the newest good message of each; zero: none since the last bad one
+  std::vector<ros::Time> stamps_;    // of the newest message of each
 };
 
 }  // namespace live_stiffness

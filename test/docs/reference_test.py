@@ -21,7 +21,7 @@ IGNORED = ("/rosout", "/get_loggers", "/set_logger_level", "/clock")
 NODES = {
     "stiffness_node": {"scene_file": "paper_one_segment.yaml"},
     "parallel_node": {"scene_file": "stewart_gough.yaml"},
-    "rig_simulator": {"scene_file": "paper_one_segment.yaml"},
+    "rig_simulator": {"scene_file": "paper_one_segment.yaml", "contact_force_n": "[0.1, 0.0, 0.0]"},
     "parallel_rig": {"scene_file": "stewart_gough.yaml"},
     "stiffness_monitor": {},
 }
@@ -63,11 +63,14 @@ def check_node(master, node, log):
     tables = documented_tables(node)
     wanted = {kind: set(names) for kind, names in tables.items()}
     program = BUILD / "devel/lib/live_stiffness" / node
-    arguments = ["_%s:=%s" % (key, SOURCE / "config/scenes" / value) for key, value in NODES[node].items()]
     parameters = SOURCE / "config" / (node + ".yaml")
     if parameters.exists():
         subprocess.run(["rosparam", "load", str(parameters), "/" + node], check=True)
-    process = subprocess.Popen([str(program)] + arguments, stdout=log, stderr=subprocess.STDOUT)
+    for key, value in NODES[node].items():
+        if key == "scene_file":
+            value = str(SOURCE / "config/scenes" / value)
+        subprocess.run(["rosparam", "set", "/%s/%s" % (node, key), value], check=True)
+    process = subprocess.Popen([str(program)], stdout=log, stderr=subprocess.STDOUT)
     try:
         end = time.monotonic() + TIMEOUT_S
         real = registered(master, node)

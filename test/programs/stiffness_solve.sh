@@ -53,4 +53,8 @@ solve 'p_1_pa\n'
 scene=/nonexistent.yaml
 solve ''
 [ $status = 2 ] && grep -q "cannot be read" "$work/err" || fail "missing scene"
+scene=$work
+solve ''
+[ $status = 2 ] && grep -q "it is a folder; must be the path of a file" "$work/err" || fail "a folder as scene"
+"$program" --help | tr -s ' \n' ' ' | grep "One of lpcc, npcc, lcm, ncm" >/dev/null || fail "--help names no choices"
 echo ok

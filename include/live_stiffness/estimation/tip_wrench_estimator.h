@@ -40,7 +40,7 @@ enum class TipWrenchCode {
   kOk = 0,
   kInvalidInput = 1,   // not finite, wrong number of pressures, or a rotation that is none: refused
   kTimeBackwards = 2,  // not after the last sample: refused
-  kRestarted = 3,      // time jumped back by more than kRestartAfter: began anew with this sample
+  kRestarted = 3,      // time jumped back by more than kRestartAfter: started again with this sample
   kOutlier = 4,        // pose beyond the gate: predicted only
   kSolveFailed = 5,    // the model has no solution there (status()): the last good estimate is kept
 };
