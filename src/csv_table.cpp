@@ -30,6 +30,17 @@ int CsvTable::require(const std::string& name, FaultList& faults) {
   return column.value_or(0);
 }
 
+std::vector<int> CsvTable::requireAll(const std::vector<std::string>& names, FaultList& faults) {
+  std::vector<int> columns;
+  for (const std::string& name : names) columns.push_back(require(name, faults));
+  return columns;
+}
+
+std::vector<int> CsvTable::requireAllOrNone(const std::vector<std::string>& names, FaultList& faults) {
+  const bool exists = std::any_of(names.begin(), names.end(), [&](const std::string& name) { return find(name).has_value(); });
+  return exists ? requireAll(names, faults) : std::vector<int>();
+}
+
 std::vector<int> CsvTable::unknown() const {
   std::vector<int> columns;
   for (size_t k = 0; k < names_.size(); ++k)
@@ -51,6 +62,12 @@ double CsvTable::number(int column, std::string& fault) const {
   return value.value_or(0.0);
 }
 
+Eigen::VectorXd CsvTable::numbers(const std::vector<int>& columns, std::string& fault) const {
+  Eigen::VectorXd values(static_cast<long>(columns.size()));
+  for (size_t k = 0; k < columns.size(); ++k) values[static_cast<long>(k)] = number(columns[k], fault);
+  return values;
+}
+
 bool CsvTable::readFields(std::vector<std::string>& fields) {
   const std::string byte_order_mark = "\xEF\xBB\xBF";  // spreadsheets write one
   for (std::string line; std::getline(input_, line);) {
@@ -59,6 +76,12 @@ bool CsvTable::readFields(std::vector<std::string>& fields) {
     if (fields.size() > 1 || !fields[0].empty()) return true;
   }
   return false;
+}
+
+std::vector<std::string> numberedColumns(const std::string& before, const std::string& after, int count) {
+  std::vector<std::string> names;
+  for (int k = 1; k <= count; ++k) names.push_back(before + std::to_string(k) + after);
+  return names;
 }
 
 std::vector<std::string> splitText(const std::string& text, char separator) {

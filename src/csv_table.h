@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "live_stiffness/checks.h"
+#include "live_stiffness/conventions.h"
 
 namespace live_stiffness {
 
@@ -21,6 +22,10 @@ class CsvTable {
   std::optional<int> find(const std::string& name);
   // The same, and 0 with a fault if there is none; a fault, too, if there are two.
   int require(const std::string& name, FaultList& faults);
+  // The same of several columns.
+  std::vector<int> requireAll(const std::vector<std::string>& names, FaultList& faults);
+  // The same of columns that are given all together or not at all; empty: not at all.
+  std::vector<int> requireAllOrNone(const std::vector<std::string>& names, FaultList& faults);
   // Indices of the columns with a name that nobody has asked for.
   std::vector<int> unknown() const;
 
@@ -31,6 +36,8 @@ class CsvTable {
   // Of the present row, which has as many fields as the header. Zero if the field is no finite number; then `fault` says so
   // with column and text, unless it says something already.
   double number(int column, std::string& fault) const;
+  // The same of several columns.
+  Eigen::VectorXd numbers(const std::vector<int>& columns, std::string& fault) const;
 
  private:
   bool readFields(std::vector<std::string>& fields);
@@ -40,6 +47,9 @@ class CsvTable {
   std::vector<bool> asked_;
   long line_ = 0;
 };
+
+// {"p_1_pa", "p_2_pa", ...} from "p_", "_pa".
+std::vector<std::string> numberedColumns(const std::string& before, const std::string& after, int count);
 
 // Parts of a text without the blanks around them; a text without separator is one part.
 std::vector<std::string> splitText(const std::string& text, char separator);

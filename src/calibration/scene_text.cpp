@@ -4,6 +4,7 @@
 #include <locale>
 #include <sstream>
 
+#include "csv_table.h"
 #include "live_stiffness/checks.h"
 #include "part_file.h"
 
@@ -16,10 +17,7 @@ std::string exact(double value) {
     std::ostringstream text;
     text.imbue(std::locale::classic());
     text << std::setprecision(digits) << value;
-    std::istringstream back(text.str());
-    back.imbue(std::locale::classic());
-    double read = 0.0;
-    if (back >> read && read == value) return text.str();
+    if (finiteNumber(text.str()) == value) return text.str();
   }
   return numberText(value);
 }

@@ -17,7 +17,7 @@ namespace live_stiffness {
 
 struct RegistrationWindow {
   double duration = 60.0;          // of the newest past, s; positive
-  bool quasi_static_only = false;  // leave out samples in and just after motion; see QuasiStaticRule
+  bool quasi_static_only = false;  // leave out samples in and just after motion; see quasiStaticSamples()
   bool leave_out_contact = false;  // leave out samples that were marked as in contact
 };
 

@@ -7,7 +7,7 @@
 #include "live_stiffness/parallel/parallel_model.h"
 #include "live_stiffness/parallel/parallel_scene_file.h"
 #include "parameter_options.h"
-#include "result_table.h"
+#include "solve_table.h"
 
 namespace po = boost::program_options;
 using namespace live_stiffness;

@@ -9,7 +9,7 @@
 #include "live_stiffness/analysis/deflection.h"
 #include "live_stiffness/rod/scene_file.h"
 #include "parameter_options.h"
-#include "result_table.h"
+#include "solve_table.h"
 
 namespace po = boost::program_options;
 using namespace live_stiffness;

@@ -4,7 +4,7 @@
 
 #include "fuzz_target.h"
 #include "live_stiffness/checks.h"
-#include "programs/input_table.h"
+#include "programs/solve_table.h"
 
 using namespace live_stiffness;
 

@@ -16,7 +16,7 @@
 #include "benchmark/scene_paths.h"
 #include "benchmark/timing.h"
 #include "live_stiffness/rod/scene_file.h"
-#include "programs/input_table.h"
+#include "programs/solve_table.h"
 
 namespace {
 

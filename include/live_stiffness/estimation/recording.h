@@ -48,25 +48,16 @@ Recording loadRecording(const std::string& path);
 // The same from text; `name` stands for the path in messages.
 Recording parseRecording(const std::string& csv, const std::string& name);
 
-// Gauge pressures of each sample (Pa). Absolute recording: minus the mean of each channel over the first rest_window
-// seconds, in which the robot must be at rest (the first sample only, if the window is shorter than a sample period). Gauge
-// recording: as they are.
-std::vector<Pressures> gaugePressures(const Recording& recording, double rest_window = 0.5);
+// Gauge pressures of each sample (Pa). Absolute recording: minus the mean of each channel over the first half second, in
+// which the robot must be at rest (the first sample only, if a sample period is longer). Gauge recording: as they are.
+std::vector<Pressures> gaugePressures(const Recording& recording);
 
-// Which samples are quasi-static. The robot moves between two samples whose pressures differ by more than `change` in any
-// channel, if they are neighbours or at most `window` apart. Samples from `before` the first of the two until `after` the
-// second are left out; all others are quasi-static.
-struct QuasiStaticRule {
-  double change = 2000.0;  // Pa
-  double window = 0.25;    // s
-  double before = 0.3;     // s
-  double after = 1.0;      // s
-};
+// Indices of the quasi-static samples, ascending; may be empty. The robot moves between two samples whose pressures differ by
+// more than 2 kPa in any channel, if they are neighbours or at most 0.25 s apart. Samples from 0.3 s before the first of the
+// two until 1 s after the second are left out; all others are quasi-static.
+std::vector<int> quasiStaticSamples(const Recording& recording);
 
-// Indices of the quasi-static samples, ascending; may be empty.
-std::vector<int> quasiStaticSamples(const Recording& recording, const QuasiStaticRule& rule = {});
-
-// True if the measured force is below `force` (N), or if no force was recorded.
-bool isUnloaded(const RecordedSample& sample, double force = 0.06);
+// True if the measured force is below 0.06 N, the noise of the recorded robot's sensor, or if no force was recorded.
+bool isUnloaded(const RecordedSample& sample);
 
 }  // namespace live_stiffness

@@ -1,4 +1,4 @@
-#include "result_table.h"
+#include "solve_table.h"
 
 #include <unistd.h>
 
@@ -40,6 +40,29 @@ void printRow(const ResultRow& row, size_t further_columns) {
 }
 
 }  // namespace
+
+InputTable::InputTable(std::istream& input, const std::vector<std::string>& inputs) : table_(input) {
+  FaultList faults("header of the table on standard input");
+  inputs_ = table_.requireAll(inputs, faults);
+  const size_t before = faults.faults().size();
+  wrench_ = table_.requireAllOrNone({"fx_n", "fy_n", "fz_n", "mx_nm", "my_nm", "mz_nm"}, faults);
+  if (faults.faults().size() > before) faults.add("columns of the wrench: give all six or none");
+  for (int column : table_.unknown())
+    faults.add("column " + table_.names()[column] + ": unknown; known are " + inputs.front() + " to " + inputs.back() +
+               " and fx_n, fy_n, fz_n, mx_nm, my_nm, mz_nm");
+  faults.throwIfAny();
+}
+
+bool InputTable::next(InputRow& row) {
+  row = InputRow();
+  if (!table_.next(row.fault)) return false;
+  row.line = table_.line();
+  row.values.setZero(static_cast<long>(inputs_.size()));
+  if (!row.fault.empty()) return true;
+  row.values = table_.numbers(inputs_, row.fault);
+  if (!wrench_.empty()) row.wrench = table_.numbers(wrench_, row.fault);
+  return true;
+}
 
 long solveTable(InputTable& table, const std::vector<std::string>& further_columns,
                 const std::function<ResultRow(const InputRow&)>& solve) {
