@@ -55,9 +55,7 @@ struct CalibrationOptions {
 struct RecordingFit {
   std::string name;
   Registration registration;
-  bool determined = false;                 // the data determine the registration: both errors below are small
-  double base_rotation_error = 0.0;        // standard error of its worst axis, rad
-  double sensor_offset_error = 0.0;        // standard error of its worst component, m
+  bool determined = false;                 // the data determine the registration: the standard errors in the verdict are small
   std::string verdict;                     // the same as text, with advice
   std::vector<double> position_error;      // |predicted - measured| of the sensor, every sample, m
   std::vector<double> rotation_error;      // rad, every sample

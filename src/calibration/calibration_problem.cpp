@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibration/compliance_cost.h"
 #include "live_stiffness/checks.h"
 
 namespace live_stiffness {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/sample_cost.h"
+#include "calibration/calibration_costs.h"
 
 namespace live_stiffness {
 

@@ -97,10 +97,6 @@ std::string reportText(const CalibrationResult& result) {
   return out.str();
 }
 
-std::string sceneHeader(const CalibrationResult& result, const std::string& how) {
-  return "Calibrated: " + how + "\n" + reportText(result);
-}
-
 std::string residualTable(const CalibrationResult& result, const std::vector<CalibrationRecording>& recordings) {
   std::ostringstream out;
   out.imbue(std::locale::classic());

@@ -11,9 +11,6 @@ namespace live_stiffness {
 // and with blocks left out, registrations with their verdicts.
 std::string reportText(const CalibrationResult& result);
 
-// The short form for the head of a calibrated scene file; begins with `how` (such as the command).
-std::string sceneHeader(const CalibrationResult& result, const std::string& how);
-
 // CSV of every sample: recording, time_s, used, error_x_m .. error_z_m (base axes), error_m, rotation_error_rad,
 // left_out_error_m (empty where not left out), pressure_K_pa (gauge, one per channel). For scripts/plot_calibration.
 std::string residualTable(const CalibrationResult& result, const std::vector<CalibrationRecording>& recordings);

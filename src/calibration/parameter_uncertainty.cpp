@@ -66,8 +66,6 @@ void describeParameters(const CalibrationProblem& problem, const std::vector<Sce
     const double turn = degrees(std::sqrt(all.diagonal().segment(at, 3).maxCoeff()));
     const double offset = std::sqrt(all.diagonal().segment(at + 6, 3).maxCoeff());
     RecordingFit& fit = result.recordings[n];
-    fit.base_rotation_error = radians(turn);
-    fit.sensor_offset_error = offset;
     fit.determined = turn < kMostTurnError && offset < kMostOffsetError;
     fit.verdict = std::string(fit.determined ? "determined" : "NOT determined by these data") + ": base rotation +- " +
                   numberText(turn) + " deg, sensor offset +- " + numberText(1e3 * offset) + " mm";

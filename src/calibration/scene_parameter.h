@@ -12,8 +12,7 @@ namespace live_stiffness {
 enum class ParameterKind {
   kYoungsModulus, kShearModulus, kShearCorrection, kLength, kPitchRadius, kChamberRadius, kAreaGrowth, kGentLimit,
   kYeohC2, kYeohC3, kPressureStiffening, kCreepShare, kCreepTime, kTipMass, kLinkMass, kChannelAzimuth,
-  // Not of the scene, see force_sensor.h:
-  kForceSensorAzimuth, kForceSensorHeight, kForceSensorCrosstalkX, kForceSensorCrosstalkY, kForceSensorDelay,
+  kForceSensor,  // not of the scene, see force_sensor.h
 };
 
 struct SceneParameter {

@@ -23,13 +23,11 @@ struct TrackerDelay {
   std::string text() const;  // as one line
 };
 
-// The delay at which predicted positions of the sensor (m, tracker frame; for the pressures of their sample) are
-// nearest to the measured ones, as the mean square over the samples of `used`:
+// The delay at which predicted positions of the sensor (m, tracker frame; one for the pressures of each sample) are nearest
+// to the measured ones, as the mean square over the samples that nothing touches (isUnloaded), of which there must be one:
 //   sum_i |p_predicted(t_i - delay) - p_measured(t_i)|^2,
-// with predictions interpolated in time. For the standard error, the remaining errors are assumed to last for `correlation` s,
-// as model error does. Throws ConfigurationError unless all have the same size, at least 3, and are finite.
-TrackerDelay fitTrackerDelay(const std::vector<double>& times, const std::vector<Vector3>& predicted,
-                             const std::vector<Vector3>& measured, const std::vector<bool>& used,
-                             double correlation = 1.0);
+// with predictions interpolated in time. For the standard error, the remaining errors are assumed to last for a second, as
+// model error does.
+TrackerDelay fitTrackerDelay(const Recording& recording, const std::vector<Vector3>& predicted);
 
 }  // namespace live_stiffness

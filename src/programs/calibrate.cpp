@@ -36,11 +36,10 @@ struct Arguments {
   std::vector<std::string> recordings, tables, parameters{"youngs_modulus_pa", "chamber_pitch_radius_m", "length_m"};
   std::vector<std::string> priors, bounds;
   int channels = 0;
-  double position_mm = 0.5, rotation_deg = 1.0, compliance = 0.05, correlation = 1.0, huber = 2.0;
-  double tracker_delay = 0.0;
+  double position_mm = 0.5, rotation_deg = 1.0, tracker_delay = 0.0;
+  CalibrationOptions fit;
   ForceSensorOptions force_sensor;
   RecordingReader reader;
-  int blocks = 8;
   bool no_orientation = false, no_priors = false, list = false, quiet = false;
 };
 
@@ -67,10 +66,10 @@ po::options_description describe(Arguments& a) {
     ("position-sigma-mm", po::value(&a.position_mm)->default_value(0.5), "first guess of model and tracker error")
     ("rotation-sigma-deg", po::value(&a.rotation_deg)->default_value(1.0), "the same")
     ("no-orientation", po::bool_switch(&a.no_orientation), "fit positions only")
-    ("compliance-sigma", po::value(&a.compliance)->default_value(0.05), "of measured compliances, relative")
-    ("correlation-time-s", po::value(&a.correlation)->default_value(1.0), "samples nearer than this share their error")
-    ("huber", po::value(&a.huber)->default_value(2.0), "residuals beyond this number of sigmas have linear weight")
-    ("blocks", po::value(&a.blocks)->default_value(8), "of each recording, left out in turn; 0: skip")
+    ("compliance-sigma", po::value(&a.fit.compliance_sigma)->default_value(0.05), "of measured compliances, relative")
+    ("correlation-time-s", po::value(&a.fit.correlation_time)->default_value(1.0), "samples nearer than this share their error")
+    ("huber", po::value(&a.fit.huber)->default_value(2.0), "residuals beyond this number of sigmas have linear weight")
+    ("blocks", po::value(&a.fit.blocks)->default_value(8), "of each recording, left out in turn; 0: skip")
     ("output,o", po::value(&a.output), "write the calibrated scene here")
     ("registration", po::value(&a.registration), "write the first recording's registration here (the node loads it)")
     ("residuals", po::value(&a.residuals), "write a CSV of residuals here, for scripts/plot_calibration")
@@ -117,17 +116,17 @@ ChannelMap channelsFor(const Arguments& a, const std::vector<CalibrationRecordin
 int run(const Arguments& a, const std::string& command) {
   const Scene scene = loadSceneFile(a.scene);
   FaultList faults("options");
-  CalibrationOptions options;
+  CalibrationOptions options = a.fit;
   options.model = namedModelOptions(a.model, a.stepping, faults);
   if (a.stepping.empty() && options.model.stepping == Stepping::kFixedStep)
     options.model.stepping = Stepping::kContinuous;
   const SampleChoice samples = sampleChoice(a.samples, faults);
   faults.check("position-sigma-mm", a.position_mm, Range::positive());
   faults.check("rotation-sigma-deg", a.rotation_deg, Range::positive());
-  faults.check("compliance-sigma", a.compliance, Range::positive());
-  faults.check("correlation-time-s", a.correlation, Range::nonnegative());
-  faults.check("huber", a.huber, Range::positive());
-  faults.check("blocks", a.blocks, {0.0, 1000.0});
+  faults.check("compliance-sigma", options.compliance_sigma, Range::positive());
+  faults.check("correlation-time-s", options.correlation_time, Range::nonnegative());
+  faults.check("huber", options.huber, Range::positive());
+  faults.check("blocks", options.blocks, {0.0, 1000.0});
   const auto loads = loadsNamed(a.loads);
   if (!loads) faults.add("loads '" + a.loads + "': must be ignore, predict or fit");
   faults.check("tracker-delay-s", a.tracker_delay, {-Registration::kLargestDelay, Registration::kLargestDelay});
@@ -135,10 +134,6 @@ int run(const Arguments& a, const std::string& command) {
   faults.throwIfAny();
   options.position_sigma = 1e-3 * a.position_mm;
   options.rotation_sigma = a.no_orientation ? 0.0 : radians(a.rotation_deg);
-  options.compliance_sigma = a.compliance;
-  options.correlation_time = a.correlation;
-  options.huber = a.huber;
-  options.blocks = a.blocks;
   options.use_priors = !a.no_priors;
   options.force_sensor = a.force_sensor.mount();
 
@@ -161,7 +156,7 @@ int run(const Arguments& a, const std::string& command) {
   };
   if (a.list) {
     std::vector<std::string> names = sceneParameterNames(scene, channels);
-    names.insert(names.end(), forceSensorParameterNames().begin(), forceSensorParameterNames().end());
+    for (const std::string& name : forceSensorParameterNames()) names.push_back(name);
     for (const std::string& name : names) {
       const SceneParameter p = named(name);
       std::cout << name << ": " << numberText(p.start / p.unit) << " +- " << numberText(p.prior_sigma / p.unit) << ", "
@@ -193,7 +188,7 @@ int run(const Arguments& a, const std::string& command) {
   const CalibrationResult result = calibrate(scene, channels, parameters, recordings, rows, options);
   std::cout << reportText(result);
   if (fits_sensor) std::cout << "\nthe force sensor as found: " << ForceSensorOptions::text(result.force_sensor) << "\n";
-  const std::string header = sceneHeader(result, command);
+  const std::string header = "Calibrated: " + command + "\n" + reportText(result);
   if (!a.output.empty()) {
     saveSceneFile(a.output, result.scene, header);
     loadSceneFile(a.output);  // refuses parameters that are legal alone and do not fit together

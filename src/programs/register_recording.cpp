@@ -23,17 +23,10 @@ const char* const kHelp =
 
 // What delay a registration still leaves, over all samples that nothing touches, in motion or not.
 TrackerDelay delayLeft(const Recording& recording, const RecordingFit& fit) {
-  std::vector<double> times;
-  std::vector<Vector3> predicted, measured;
-  std::vector<bool> used;
-  for (size_t i = 0; i < recording.samples.size(); ++i) {
-    const RecordedSample& sample = recording.samples[i];
-    times.push_back(sample.time);
-    measured.push_back(sample.tip_position);
-    predicted.push_back(sample.tip_position + fit.registration.X_AB.R * fit.position_residual[i]);
-    used.push_back(isUnloaded(sample));
-  }
-  return fitTrackerDelay(times, predicted, measured, used);
+  std::vector<Vector3> predicted;
+  for (size_t i = 0; i < recording.samples.size(); ++i)
+    predicted.push_back(recording.samples[i].tip_position + fit.registration.X_AB.R * fit.position_residual[i]);
+  return fitTrackerDelay(recording, predicted);
 }
 
 int run(const std::string& scene_path, const RecordingReader& reader, const std::string& recording_path,

@@ -11,7 +11,7 @@
 namespace live_stiffness {
 namespace {
 
-ForceSensorMount mountOf(double azimuth_deg, double height, Vector2Of<double> crosstalk, double delay) {
+ForceSensorMount mountOf(double azimuth_deg, double height, const Eigen::Vector2d& crosstalk, double delay) {
   ForceSensorMount mount;
   mount.azimuth = radians(azimuth_deg);
   mount.height = height;
@@ -118,7 +118,7 @@ TEST(ForceReadings, DerivativesAreThoseOfDifferences) {
   for (int k = 0; k < 6; ++k) values[k] = parameters[static_cast<size_t>(k)].start;
   for (int k = 0; k < 5; ++k) {
     Eigen::VectorXd more = values, less = values;
-    const double step = 1e-4 * parameters[static_cast<size_t>(k)].prior_sigma;
+    const double step = 1e-3 * parameters[static_cast<size_t>(k)].prior_sigma;
     more[k] += step, less[k] -= step;
     const Wrench change = readings.atTip(withParameters(mount, parameters, more), 5.0, R_BT) -
                           readings.atTip(withParameters(mount, parameters, less), 5.0, R_BT);

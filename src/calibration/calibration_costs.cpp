@@ -1,9 +1,11 @@
-#include "calibration/sample_cost.h"
+#include "calibration/calibration_costs.h"
 
-#include <ceres/cost_function.h>
+#include <vector>
 
 namespace live_stiffness {
 namespace {
+
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 class SampleCost : public ceres::CostFunction {
  public:
@@ -38,8 +40,7 @@ class SampleCost : public ceres::CostFunction {
     }
     if (jacobians == nullptr) return true;
     if (jacobians[own] != nullptr) {
-      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, kRegistrationSize, Eigen::RowMajor>> J(jacobians[own], rows,
-                                                                                             kRegistrationSize);
+      Eigen::Map<RowMajor> J(jacobians[own], rows, kRegistrationSize);
       J.setZero();
       const Matrix3 dexp = leftJacobianSo3(Vector3(r.head<3>()));
       J.block<3, 3>(0, 0) = -hat(arm) * dexp / sigmas_.position;
@@ -51,7 +52,6 @@ class SampleCost : public ceres::CostFunction {
       }
     }
     if (!derivatives) return true;
-    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     Eigen::Map<RowMajor> J(jacobians[0], rows, static_cast<long>(parameters_.size()));
     const Matrix3& R_AB = registration.X_AB.R;
     const Vector3 lever = prediction.X_BT.R * registration.X_TS.p;
@@ -71,12 +71,60 @@ class SampleCost : public ceres::CostFunction {
   ResidualSigmas sigmas_;
 };
 
+// Derivatives by central differences of solves to 1e-12. A table has few rows, so this costs less than a millisecond.
+class ComplianceCost : public ceres::CostFunction {
+ public:
+  ComplianceCost(RowCompliance compliance, const Matrix3& measured, double sigma, int parameters)
+      : compliance_(std::move(compliance)), measured_(measured), scale_(1.0 / (sigma * measured.norm())) {
+    set_num_residuals(10);
+    mutable_parameter_block_sizes()->push_back(parameters);
+  }
+
+  bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
+    const int count = parameter_block_sizes()[0];
+    if (!evaluate(blocks[0], residuals)) return false;
+    if (jacobians == nullptr || jacobians[0] == nullptr) return true;
+    constexpr double kStep = 1e-4;  // of a prior sigma: truncation 1e-8 of the change, rounding 1e-8 too
+    std::vector<double> x(blocks[0], blocks[0] + count);
+    double above[10], below[10];
+    for (int k = 0; k < count; ++k) {
+      const double at = x[k];
+      x[k] = at + kStep;
+      if (!evaluate(x.data(), above)) return false;
+      x[k] = at - kStep;
+      if (!evaluate(x.data(), below)) return false;
+      x[k] = at;
+      for (int i = 0; i < 10; ++i) jacobians[0][i * count + k] = (above[i] - below[i]) / (2.0 * kStep);
+    }
+    return true;
+  }
+
+ private:
+  bool evaluate(const double* x, double* residuals) const {
+    Matrix3 C;
+    if (!compliance_(x, C)) return false;
+    Eigen::Map<Matrix3> entries(residuals);
+    entries = scale_ * (C - measured_);
+    residuals[9] = scale_ * (C.norm() - measured_.norm());
+    return true;
+  }
+
+  RowCompliance compliance_;
+  Matrix3 measured_;
+  double scale_;
+};
+
 }  // namespace
 
 std::unique_ptr<ceres::CostFunction> sampleCost(RecordingEvaluator& evaluator, size_t sample,
                                                 const std::vector<SceneParameter>& parameters,
                                                 const ResidualSigmas& sigmas) {
   return std::make_unique<SampleCost>(evaluator, sample, parameters, sigmas);
+}
+
+std::unique_ptr<ceres::CostFunction> complianceCost(RowCompliance compliance, const Matrix3& measured, double sigma,
+                                                    int parameters) {
+  return std::make_unique<ComplianceCost>(std::move(compliance), measured, sigma, parameters);
 }
 
 }  // namespace live_stiffness

@@ -1,13 +1,12 @@
 #pragma once
-// Residuals of a calibration's samples.
+// Residuals of a calibration: of its samples, and of the rows of compliance tables.
 
+#include <ceres/cost_function.h>
+
+#include <functional>
 #include <memory>
 
 #include "calibration/recording_evaluator.h"
-
-namespace ceres {
-class CostFunction;
-}
 
 namespace live_stiffness {
 
@@ -20,5 +19,12 @@ struct ResidualSigmas {
 std::unique_ptr<ceres::CostFunction> sampleCost(RecordingEvaluator& evaluator, size_t sample,
                                                 const std::vector<SceneParameter>& parameters,
                                                 const ResidualSigmas& sigmas);
+
+// Compliance of a row at x, m/N. False if there is no solution.
+using RowCompliance = std::function<bool(const double* x, Matrix3& compliance)>;
+
+// Errors of the row's nine entries and of its norm, which (42) compares, divided by `sigma` times the measured norm. Block: x.
+std::unique_ptr<ceres::CostFunction> complianceCost(RowCompliance compliance, const Matrix3& measured, double sigma,
+                                                    int parameters);
 
 }  // namespace live_stiffness
