@@ -14,12 +14,6 @@ namespace {
 
 constexpr double kCoarse = 1e-4, kFine = 1e-7;  // relative change of the cost at which a search ends
 
-double median(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::nth_element(values.begin(), values.begin() + static_cast<long>(values.size() / 2), values.end());
-  return values[values.size() / 2];
-}
-
 struct SampleErrors {
   Vector3 position;  // A axes, m
   double rotation;   // rad
@@ -52,8 +46,8 @@ CalibrationProblem::Sigmas residualSigmas(CalibrationProblem& problem, size_t re
   }
   if (positions.empty()) return {options.position_sigma, options.rotation_sigma};
   constexpr double kMedianLength = 1.538, kLeastPosition = 3e-5, kLeastRotation = 3e-4;
-  return {std::max(median(positions) / kMedianLength, kLeastPosition),
-          options.rotation_sigma > 0.0 ? std::max(median(rotations) / kMedianLength, kLeastRotation) : 0.0};
+  return {std::max(quantile(positions, 0.5) / kMedianLength, kLeastPosition),
+          options.rotation_sigma > 0.0 ? std::max(quantile(rotations, 0.5) / kMedianLength, kLeastRotation) : 0.0};
 }
 
 void describeRecording(CalibrationProblem& problem, const CalibrationProblem::Solution& solution, size_t n,

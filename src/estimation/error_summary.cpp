@@ -7,6 +7,13 @@
 
 namespace live_stiffness {
 
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  const auto at = values.begin() + std::min<long>(values.size() - 1, static_cast<long>(share * values.size()));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
 ErrorSummary summarizeErrors(std::vector<double> errors) {
   ErrorSummary summary;
   summary.count = static_cast<int>(errors.size());

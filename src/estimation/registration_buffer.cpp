@@ -34,10 +34,7 @@ LiveRegistration refused(LiveRegistration result, const std::string& fault) {
 
 RegistrationFit fitWithoutOutliers(std::vector<Pose>& X_BT, std::vector<Pose>& X_AS, int& outliers) {
   RegistrationFit fit = fitRegistration(X_BT, X_AS);
-  std::vector<double> sorted = fit.residuals;
-  const auto middle = sorted.begin() + sorted.size() / 2;
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  const double limit = RegistrationBuffer::kOutlier * *middle;
+  const double limit = RegistrationBuffer::kOutlier * quantile(fit.residuals, 0.5);
   size_t kept = 0;
   for (size_t i = 0; i < fit.residuals.size(); ++i) {
     if (fit.residuals[i] > limit) continue;

@@ -11,7 +11,7 @@
 #include "live_stiffness/compliance/stiffness_model.h"
 #include "live_stiffness/estimation/recording.h"
 #include "live_stiffness/estimation/registration_fit.h"
-#include "estimation/scene_creep.h"
+#include "estimation/creep.h"
 
 namespace live_stiffness {
 

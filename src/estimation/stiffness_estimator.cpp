@@ -3,7 +3,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "estimation/scene_creep.h"
+#include "estimation/creep.h"
 #include "lie/matrix6.h"
 #include "rod/backbone.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "estimation/scene_creep.h"
+#include "estimation/creep.h"
 #include "estimation/tip_wrench_filter.h"
 
 namespace live_stiffness {

@@ -20,6 +20,9 @@ constexpr double kContactLever = 1.0 / 30.0;           // m
 constexpr double kErrorTime = 2.0, kErrorTimeInContact = 100.0;  // s
 constexpr double kErrorPositionPerPressure = 2e-8;               // m/Pa
 constexpr double kErrorRotationPerPressure = 5e-5 * kDegree;     // rad/Pa
+// Models are made again when the logarithm of the scale has changed by more than this; until then they err by at most 1e-3
+// of the deflection. The difference for the derivative by the logarithm truncates 1 % of it.
+constexpr double kRebuildAfter = 1e-3, kScaleDifference = 1e-2;
 constexpr double kScaleWalk = 0.002;  // 1 / sqrt(s), of the logarithm of the stiffness scale: warming up takes minutes
 
 // Gauss-Markov process over `elapsed`: the value decays by the factor, and its variance tends to sigma^2.
@@ -32,7 +35,7 @@ void relax(double& value, double& factor, double& noise, double sigma, double ti
 }  // namespace
 
 TipWrenchFilter::TipWrenchFilter(Scene scene, const ModelOptions& model_options, const TipWrenchOptions& options)
-    : options_(options), model_(std::move(scene), model_options, options.scale_deviation > 0.0) {
+    : options_(options), scene_(std::move(scene)), model_options_(model_options) {
   reset();
 }
 
@@ -48,13 +51,30 @@ void TipWrenchFilter::reset() {
   for (int k = 0; k < 6; ++k)
     P(biasIndex() + k, biasIndex() + k) = std::pow(modelErrorSize(k), 2);
   status_ = {};
-  model_.setLogScale(0.0);
+  setLogScale(0.0);
+}
+
+void TipWrenchFilter::setLogScale(double log_scale) {
+  if (scaled_ && std::abs(log_scale - log_scale_) <= kRebuildAfter) return;
+  const auto solverAt = [&](double log) {
+    Scene scene = scene_;
+    for (Body& body : scene.chain) {
+      auto* const segment = std::get_if<Segment>(&body);
+      if (segment == nullptr) continue;
+      segment->section.youngs_modulus *= std::exp(log);
+      segment->section.shear_modulus *= std::exp(log);
+    }
+    return std::make_unique<Solver>(std::move(scene), model_options_);
+  };
+  scaled_ = solverAt(log_scale);
+  if (options_.scale_deviation > 0.0) stiffer_ = solverAt(log_scale + kScaleDifference);
+  log_scale_ = log_scale;
 }
 
 void TipWrenchFilter::setInputs(PressuresRef effective, const Wrench& known) {
   effective_ = effective;
   known_ = known;
-  if (options_.scale_deviation > 0.0) model_.setLogScale(belief_.x[scaleIndex()]);
+  if (options_.scale_deviation > 0.0) setLogScale(belief_.x[scaleIndex()]);
 }
 
 Wrench TipWrenchFilter::wrenchOf(const State& x) const {
@@ -106,7 +126,7 @@ TipWrenchFilter::Belief TipWrenchFilter::predicted(double elapsed, double pressu
 }
 
 bool TipWrenchFilter::solveAt(const State& x, StiffnessSolution& solution) {
-  solution = model_.solve(effective_, wrenchOf(x) + known_);
+  solution = scaled_->model.solve(effective_, wrenchOf(x) + known_, scaled_->workspace);
   status_ = solution.status;
   return status_.ok();
 }
@@ -114,8 +134,10 @@ bool TipWrenchFilter::solveAt(const State& x, StiffnessSolution& solution) {
 TipWrenchFilter::Design TipWrenchFilter::designAt(const State& x, const StiffnessSolution& solution) {
   Design H = Design::Zero(6, x.size());
   H.leftCols(options_.components) = solution.compliance.leftCols(options_.components);
-  if (options_.scale_deviation > 0.0)
-    H.col(scaleIndex()) = model_.derivative(effective_, wrenchOf(x) + known_, solution.X_BT);
+  if (stiffer_) {
+    const StiffnessSolution stiffer = stiffer_->model.solve(effective_, wrenchOf(x) + known_, stiffer_->workspace);
+    if (stiffer.status.ok()) H.col(scaleIndex()) = residualTwist(stiffer.X_BT, solution.X_BT) / kScaleDifference;
+  }
   H.middleCols<6>(biasIndex()).setIdentity();
   return H;
 }

@@ -4,7 +4,8 @@
 //
 // State x: wrench W at T (3 or 6 components), logarithm g of the stiffness scale, twist b of the model error.
 
-#include "estimation/scaled_model.h"
+#include <memory>
+
 #include "live_stiffness/estimation/tip_wrench_estimator.h"
 
 namespace live_stiffness {
@@ -57,10 +58,16 @@ class TipWrenchFilter {
   Pose withModelError(const Pose& X_BT) const { return withModelError(X_BT, belief_.x); }
 
   const SolveStatus& status() const { return status_; }  // of the newest solve
-  const StiffnessModel& model() const { return model_.model(); }
+  const StiffnessModel& model() const { return scaled_->model; }
 
  private:
   using Design = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, kMaxStates>;
+  struct Solver {
+    Solver(Scene scene, const ModelOptions& options)
+        : model(std::move(scene), options), workspace(model.makeWorkspace()) {}
+    StiffnessModel model;
+    StiffnessWorkspace workspace;
+  };
 
   int scaleIndex() const { return options_.components; }
   int biasIndex() const { return options_.components + 1; }
@@ -72,9 +79,14 @@ class TipWrenchFilter {
   Design designAt(const State& x, const StiffnessSolution& solution);
   // Moves x towards x + step, halved until the model has a solution there; the share taken, or 0 if none was found.
   double moveBy(const State& step, State& x, StiffnessSolution& solution);
+  // Makes the models with the factor exp(log_scale) on all moduli, if it has moved far enough since the last time.
+  void setLogScale(double log_scale);
 
   const TipWrenchOptions& options_;
-  ScaledModel model_;
+  const Scene scene_;
+  const ModelOptions model_options_;
+  std::unique_ptr<Solver> scaled_, stiffer_;  // at the scale, and a bit stiffer, for the derivative by it; none if it stays 1
+  double log_scale_ = 0.0;                    // of scaled_
   Belief belief_;
   Pressures effective_;
   Wrench known_ = Wrench::Zero();

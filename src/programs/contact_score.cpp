@@ -5,6 +5,7 @@
 #include <cmath>
 #include <locale>
 #include <sstream>
+#include <utility>
 
 #include "estimation/interpolation.h"
 
@@ -104,23 +105,15 @@ std::string ContactScore::table() const {
   std::ostringstream out;
   out.imbue(std::locale::classic());
   out.precision(9);
-  const auto row = [&](const char* quantity, double value) { out << quantity << ',' << value << '\n'; };
+  const std::pair<const char*, double> rows[] = {
+      {"pushes", pushes}, {"during", during},
+      {"rms_n", rms}, {"rms_truth_n", rms_truth}, {"rms_compliant_n", rms_compliant},
+      {"rms_compliant_truth_n", rms_compliant_truth},
+      {"peak_n", peak}, {"peak_truth_n", peak_truth}, {"peak_compliant_n", peak_compliant},
+      {"peak_compliant_truth_n", peak_compliant_truth}, {"stiff_compliance_m_per_n", stiff_compliance},
+      {"seen", seen}, {"longest_false_s", longest_false}, {"delay_s", delay}, {"correlation", correlation}};
   out << "quantity,value\n";
-  row("pushes", pushes);
-  row("during", during);
-  row("rms_n", rms);
-  row("rms_truth_n", rms_truth);
-  row("rms_compliant_n", rms_compliant);
-  row("rms_compliant_truth_n", rms_compliant_truth);
-  row("peak_n", peak);
-  row("peak_truth_n", peak_truth);
-  row("peak_compliant_n", peak_compliant);
-  row("peak_compliant_truth_n", peak_compliant_truth);
-  row("stiff_compliance_m_per_n", stiff_compliance);
-  row("seen", seen);
-  row("longest_false_s", longest_false);
-  row("delay_s", delay);
-  row("correlation", correlation);
+  for (const auto& [quantity, value] : rows) out << quantity << ',' << value << '\n';
   return out.str();
 }
 

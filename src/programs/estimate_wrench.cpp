@@ -96,10 +96,9 @@ void run(const std::string& scene_path, const Recording& recorded, const std::st
     std::cerr << score.text() << "\n";
     if (!score_path.empty()) writeTextFile("output", score_path, score.table());
   }
-  std::sort(microseconds.begin(), microseconds.end());
-  const auto at = [&](double share) { return microseconds[static_cast<size_t>(share * (microseconds.size() - 1))]; };
-  std::cerr << "one update: median " << numberText(at(0.5)) << " us, 99 % below " << numberText(at(0.99)) << " us, slowest "
-            << numberText(at(1.0)) << " us (" << microseconds.size() << " samples)\n";
+  const auto text = [&](double share) { return numberText(quantile(microseconds, share)); };
+  std::cerr << "one update: median " << text(0.5) << " us, 99 % below " << text(0.99) << " us, slowest " << text(1.0)
+            << " us (" << microseconds.size() << " samples)\n";
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include "live_stiffness/compliance/model_options.h"
 #include "live_stiffness/estimation/registration.h"
 #include "live_stiffness/estimation/stiffness_estimator.h"
-#include "live_stiffness/estimation/tip_wrench_options.h"
+#include "live_stiffness/estimation/tip_wrench_estimator.h"
 #include "ros/conversions.h"
 #include "ros/marker_shapes.h"
 #include "live_stiffness/section/channel_map.h"

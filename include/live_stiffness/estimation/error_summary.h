@@ -14,6 +14,9 @@ struct ErrorSummary {
   double max = 0.0;
 };
 
+// The value that a share (0 to 1) of the values does not exceed, to the nearest of them; 0.5: the median. Zero of none.
+double quantile(std::vector<double> values, double share);
+
 // Summary of error magnitudes, which must not be negative. A NaN among them makes every number NaN.
 ErrorSummary summarizeErrors(std::vector<double> errors);
 

@@ -1,4 +1,4 @@
-#include "estimation/scene_creep.h"
+#include "estimation/creep.h"
 
 #include <algorithm>
 
