@@ -1,6 +1,5 @@
 #include "analysis/pressure_plan.h"
 
-
 #include "live_stiffness/checks.h"
 
 namespace live_stiffness {
@@ -72,12 +71,6 @@ double PressurePlan::channelPressure(long row, int channel) const {
   const long step = row / stride_[channel] % range.count;
   if (step == range.count - 1 && step > 0) return range.to;
   return step == 0 ? range.from : range.from + step * ((range.to - range.from) / (range.count - 1));
-}
-
-Pressures PressurePlan::channelPressures(long row) const {
-  Pressures pressures(channels_.channelCount());
-  for (int k = 0; k < pressures.size(); ++k) pressures[k] = channelPressure(row, k);
-  return pressures;
 }
 
 void PressurePlan::chamberPressures(long row, Eigen::Ref<Pressures> chambers) const {

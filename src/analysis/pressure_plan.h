@@ -33,8 +33,7 @@ class PressurePlan {
   long rows() const { return rows_; }
   const ChannelMap& channels() const { return channels_; }
 
-  // Pressures of a row, 0 to rows() - 1, Pa: of the channels, and of the chambers (base to tip).
-  Pressures channelPressures(long row) const;
+  // Pressures of the chambers (base to tip) in a row, 0 to rows() - 1, Pa.
   void chamberPressures(long row, Eigen::Ref<Pressures> chambers) const;
 
  private:

@@ -21,26 +21,13 @@ struct SweepRow {
   double tau = 0.0;                            // the criterion (22)
 };
 
-class StiffnessSweep {
- public:
-  // model and plan must outlive the sweep. Throws ConfigurationError unless the plan has as many chambers as the scene.
-  StiffnessSweep(const StiffnessModel& model, const PressurePlan& plan, const StiffnessCriterion& criterion,
-                 ComplianceKind kind);
+// Takes rows first to first + rows.size() - 1; called in order, by one thread at a time.
+using SweepSink = std::function<void(long first, const std::vector<SweepRow>& rows)>;
 
-  // One row. Every solve starts cold, so the result depends on the row only, and not on the row that the thread solved
-  // before.
-  SweepRow solve(long row, StiffnessWorkspace& workspace, Pressures& chambers) const;
-
-  // Takes rows first to first + rows.size() - 1; called in order, by one thread at a time.
-  using Sink = std::function<void(long first, const std::vector<SweepRow>& rows)>;
-  // All rows, by at most `threads` threads (0: all cores), in blocks of `block` rows. Results do not depend on either.
-  void run(const Sink& sink, int threads = 0, long block = 16384) const;
-
- private:
-  const StiffnessModel& model_;
-  const PressurePlan& plan_;
-  StiffnessCriterion criterion_;
-  ComplianceKind kind_;
-};
+// Solves all rows by at most `threads` threads (0: all cores), in blocks of `block` rows. Every solve starts cold, so that a
+// row depends on neither, nor on the row that the thread solved before. Throws ConfigurationError unless the plan has as many
+// chambers as the scene.
+void sweepStiffness(const StiffnessModel& model, const PressurePlan& plan, const StiffnessCriterion& criterion,
+                    ComplianceKind kind, const SweepSink& sink, int threads = 0, long block = 16384);
 
 }  // namespace live_stiffness

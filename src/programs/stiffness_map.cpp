@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <cstdint>
 #include <ctime>
 #include <iostream>
 #include <limits>
@@ -11,7 +13,6 @@
 #include "csv_table.h"
 #include "analysis/stiffness_finder.h"
 #include "live_stiffness/rod/scene_file.h"
-#include "map_arguments.h"
 #include "map_table.h"
 #include "parameter_options.h"
 #include "progress_bar.h"
@@ -21,7 +22,48 @@ using namespace live_stiffness;
 
 namespace {
 
-int sweep(const StiffnessModel& model, const ChannelMap& channels, const MapArguments& arguments) {
+struct Arguments {
+  std::string scene, model, stepping, criterion = "largest_eigenstiffness", compliance = "tangent", output = "-";
+  std::string channel_of_chamber, find, direction = "x", at;
+  std::vector<std::string> pressures;
+  double accuracy = 1e-6, max_bar = 1.0, tolerance_mm = 0.1;
+  long random = 0;
+  std::uint64_t seed = 1;
+  int channels = 0, threads = 0, starts = 24;
+};
+
+// Of --pressures; faults are added.
+std::vector<PressureRange> readRanges(const Arguments& arguments, FaultList& faults) {
+  std::vector<PressureRange> ranges;
+  const bool needs_count = arguments.random == 0;
+  for (const std::string& text : arguments.pressures) {
+    const std::vector<double> numbers = numberList(text, ':').value_or(std::vector<double>());
+    const double count = numbers.size() == 3 ? numbers[2] : 1.0;
+    if ((numbers.size() == 3 || (numbers.size() == 2 && !needs_count)) && count >= 1.0 && count <= 1e9 &&
+        count == std::floor(count))
+      ranges.push_back({numbers[0], numbers[1], static_cast<long>(count)});
+    else
+      faults.add("pressures = " + text + ": must be FROM:TO:COUNT, gauge pressures in Pa and a whole number from 1 to 1e9" +
+                 (needs_count ? "" : "; with --random FROM:TO will do") + ", for example 0:1e5:21");
+  }
+  return ranges;
+}
+
+// Of --channel-of-chamber or --channels. Throws ConfigurationError.
+ChannelMap readChannels(const Arguments& arguments, int chambers) {
+  if (arguments.channel_of_chamber.empty())
+    return ChannelMap::even(arguments.channels > 0 ? arguments.channels : chambers, chambers);
+  std::vector<int> channels;
+  for (double number : numberList(arguments.channel_of_chamber, ',').value_or(std::vector<double>{-1.0})) {
+    if (!(number >= 0.0 && number < kMaxChannels && number == std::floor(number)))
+      throw ConfigurationError("options", {"channel-of-chamber = " + arguments.channel_of_chamber +
+                                           ": must be the channel of each chamber from 0, for example 0,0,1,1,2,2"});
+    channels.push_back(static_cast<int>(number));
+  }
+  return ChannelMap(channels);
+}
+
+int sweep(const StiffnessModel& model, const ChannelMap& channels, const Arguments& arguments) {
   FaultList faults("options");
   const std::vector<PressureRange> ranges = readRanges(arguments, faults);
   const StiffnessCriterion criterion = criterionNamed(arguments.criterion, faults);
@@ -31,8 +73,6 @@ int sweep(const StiffnessModel& model, const ChannelMap& channels, const MapArgu
   const PressurePlan plan = arguments.random > 0
                                 ? PressurePlan::sample(ranges, channels, arguments.random, arguments.seed)
                                 : PressurePlan::grid(ranges, channels);
-  const StiffnessSweep sweep(model, plan, criterion,
-                             arguments.compliance == "tangent" ? ComplianceKind::kTangent : ComplianceKind::kMaterial);
   MapTable table(arguments.output, plan, criterion);
   ProgressBar bar("stiffness_map", plan.rows());
   long failed = 0;
@@ -41,7 +81,9 @@ int sweep(const StiffnessModel& model, const ChannelMap& channels, const MapArgu
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   const std::clock_t start_cpu = std::clock();
-  sweep.run(
+  const ComplianceKind kind = arguments.compliance == "tangent" ? ComplianceKind::kTangent : ComplianceKind::kMaterial;
+  sweepStiffness(
+      model, plan, criterion, kind,
       [&](long first, const std::vector<SweepRow>& rows) {
         for (const SweepRow& row : rows) {
           if (row.code != SolveCode::kOk) {
@@ -79,7 +121,7 @@ void printFound(const char* title, const FoundPressures& found) {
               1e3 * found.miss, found.stiffness);
 }
 
-int find(const StiffnessModel& model, const ChannelMap& channels, const MapArguments& arguments) {
+int find(const StiffnessModel& model, const ChannelMap& channels, const Arguments& arguments) {
   FaultList faults("options");
   if (arguments.find != "stiffest" && arguments.find != "softest")
     faults.add("find = " + arguments.find + ": must be stiffest or softest");
@@ -133,7 +175,7 @@ const char kHelp[] =
 }  // namespace
 
 int main(int argc, char** argv) {
-  MapArguments a;
+  Arguments a;
   po::options_description options = helpOption();
   options.add_options()
     ("pressures", po::value(&a.pressures)->composing(),
@@ -160,16 +202,7 @@ int main(int argc, char** argv) {
   addOption(options, kModel, a.model);
   addOption(options, kStepping, a.stepping);
   addOption(options, kAccuracy, a.accuracy);
-  // --max_bar is --max-bar, and --pressures was once called --grid.
-  std::vector<std::string> words(argv, argv + argc);
-  const std::string former = "--grid";
-  for (std::string& word : words) {
-    if (word == former || word.compare(0, former.size() + 1, former + "=") == 0)
-      word.replace(0, former.size(), "--pressures");
-    if (word.compare(0, 2, "--") == 0)
-      std::replace(word.begin(), word.begin() + std::min(word.find('='), word.size()), '_', '-');
-  }
-  return runProgram(words, kHelp, options, {{"scene", 1}}, [&](const po::variables_map& values) {
+  return runProgram({argv, argv + argc}, kHelp, options, {{"scene", 1}}, [&](const po::variables_map& values) {
     FaultList faults("options");
     const bool finds = values.count("find") > 0;
     if (finds == (values.count("pressures") > 0)) faults.add("give either --pressures or --find");

@@ -28,7 +28,7 @@ map "$one" --channels 3 --pressures 0:1e5 --random 500 --seed 4
 cmp -s "$work/first" "$work/out" && fail "the seed changes nothing"
 
 # The search.
-map "$two" --channels 6 --find stiffest --direction x --at 0.01,0.005,0.095 --starts 4 --max_bar 1 --tolerance_mm 0.1
+map "$two" --channels 6 --find stiffest --direction x --at 0.01,0.005,0.095 --starts 4 --max-bar 1 --tolerance-mm 0.1
 [ $status = 0 ] && grep -q "^reached: true" "$work/out" && grep -q stiffest_over_softest "$work/out" || fail "search"
 map "$one" --channels 3 --find softest --direction 0,0,1 --at 0,0,1 --starts 2
 [ $status = 1 ] && grep -q "out of reach" "$work/out" && grep -q "^nearest" "$work/out" || fail "out of reach"
@@ -38,7 +38,6 @@ bad() { local word=$1; shift; map "$@"; [ $status = 2 ] && grep -q -- "$word" "$
 bad "either --pressures or --find" "$one"
 bad "pressures = 1:2" "$one" --pressures 1:2
 bad "pressures = 0:1e5:0" "$one" --pressures 0:1e5:0
-bad "pressures = 0:1" "$one" --grid 0:1  # its former name
 bad "criterion = stiff" "$one" --pressures 0:1e5:3 --criterion stiff
 bad "find = x" "$one" --find x --at 0,0,0
 bad "at = (missing)" "$one" --find softest
