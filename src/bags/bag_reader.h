@@ -4,9 +4,19 @@
 #include <functional>
 #include <string>
 
-#include "bags/bag_format.h"
+#include "ros/conversions.h"
 
 namespace live_stiffness {
+
+// Topics with or without a leading slash. By default what recording_to_bag and simulate_bag write: gauge channel pressures,
+// poses of the sensor in the tracker's frame, wrenches in the force sensor's own axes. These are not on tip_wrench, which the
+// node would take as the wrench at T: the sensor's axes and sign must be known for that.
+struct BagFormat {
+  std::string pressure_topic = "chamber_pressures", pose_topic = "aurora_pose";
+  std::string wrench_topic = "tip_force_torque";  // of the force sensor; replay reads a known wrench from tip_wrench instead
+  PressureFormat pressures;
+  double position_unit = 1.0;  // m per unit of the tracker's positions
+};
 
 // Gets each message of a rig's three topics. recorded: when it was written to the bag, which counts as its time if it has no
 // stamp.

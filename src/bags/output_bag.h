@@ -42,4 +42,7 @@ class OutputBag {
   std::unique_ptr<rosbag::Bag> bag_;
 };
 
+// Stamp of a time since the begin of a recording, s; ROS time must not be zero.
+inline ros::Time bagTime(double seconds) { return ros::Time(1000.0 + seconds); }
+
 }  // namespace live_stiffness

@@ -4,7 +4,6 @@
 #include <map>
 #include <optional>
 
-#include "bags/bag_reader.h"
 #include "live_stiffness/checks.h"
 
 namespace live_stiffness {

@@ -1,10 +1,10 @@
 #pragma once
-// Reads bags as recordings: those of RigBag, or of similar drivers.
+// Reads bags as recordings: those that recording_to_bag writes, or of similar drivers.
 
 #include <string>
 
 #include "live_stiffness/estimation/recording.h"
-#include "bags/bag_format.h"
+#include "bags/bag_reader.h"
 
 namespace live_stiffness {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "live_stiffness/parameters.h"
-#include "bags/bag_format.h"
+#include "bags/bag_reader.h"
 
 namespace live_stiffness {
 

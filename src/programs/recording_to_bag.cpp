@@ -7,7 +7,8 @@
 #include "live_stiffness/estimation/recording.h"
 #include "live_stiffness/estimation/registration_fit.h"
 #include "live_stiffness/rod/scene_file.h"
-#include "bags/rig_bag.h"
+#include "bags/bag_reader.h"
+#include "bags/output_bag.h"
 #include "live_stiffness/section/channel_map.h"
 #include "progress_bar.h"
 
@@ -17,15 +18,16 @@ using namespace live_stiffness;
 namespace {
 
 void writeBag(const Recording& recording, const std::vector<Pressures>& channels, const std::string& path) {
-  RigBag bag(path, "aurora");
+  const BagFormat format;
+  OutputBag bag(path);
   ProgressBar progress("writing " + path, static_cast<long>(recording.samples.size()));
   const double start = recording.samples.front().time;
   for (size_t i = 0; i < recording.samples.size(); ++i) {
     const RecordedSample& sample = recording.samples[i];
     const ros::Time stamp = bagTime(sample.time - start);
-    bag.write(channels[i], stamp);
-    bag.write(sample.tipPose(), stamp);
-    if (sample.tip_wrench) bag.writeForceTorque(*sample.tip_wrench, stamp);
+    bag.write(format.pressure_topic, stamp, toPressures(channels[i], stamp));
+    bag.write(format.pose_topic, stamp, toPoseStamped(sample.tipPose(), stamp, kTrackerFrame.standard));
+    if (sample.tip_wrench) bag.write(format.wrench_topic, stamp, toWrenchStamped(*sample.tip_wrench, stamp, kForceSensorFrame));
     progress.update(static_cast<long>(i) + 1);
   }
   bag.finish();

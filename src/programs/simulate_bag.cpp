@@ -5,7 +5,8 @@
 #include "command_line.h"
 #include "rig/rig_model.h"
 #include "live_stiffness/rod/scene_file.h"
-#include "bags/rig_bag.h"
+#include "bags/bag_reader.h"
+#include "bags/output_bag.h"
 #include "parameter_options.h"
 #include "progress_bar.h"
 
@@ -57,15 +58,17 @@ int main(int argc, char** argv) {
     if (channels > 0) rig_options.channel_of_chamber = ChannelMap::even(channels, scene.chamberCount()).channelOfChamber();
     if (!registration_path.empty()) rig_options.registration = loadRegistrationFile(registration_path);
     RigModel rig(scene, rig_options);
-    RigBag bag(bag_path, "aurora");
+    const BagFormat format;
+    OutputBag bag(bag_path);
     const long samples = static_cast<long>(seconds * rate);
     ProgressBar progress("simulating " + bag_path, samples);
     for (long i = 0; i < samples; ++i) {
       const RigSample sample = rig.step(i / rate);
       const ros::Time stamp = bagTime(sample.time);
-      bag.write(sample.measured_channels, stamp);
-      if (sample.X_AS) bag.write(*sample.X_AS, stamp);
-      if (!push_n.empty()) bag.writeForceTorque(sample.sensedContact(), stamp);
+      bag.write(format.pressure_topic, stamp, toPressures(sample.measured_channels, stamp));
+      if (sample.X_AS) bag.write(format.pose_topic, stamp, toPoseStamped(*sample.X_AS, stamp, kTrackerFrame.standard));
+      if (!push_n.empty())
+        bag.write(format.wrench_topic, stamp, toWrenchStamped(sample.sensedContact(), stamp, kForceSensorFrame));
       progress.update(i + 1);
     }
     bag.finish();

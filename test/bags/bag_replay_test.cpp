@@ -12,7 +12,7 @@
 #include <stdexcept>
 
 #include "live_stiffness/checks.h"
-#include "estimation/scene_creep.h"
+#include "estimation/creep.h"
 #include "support/matrix_near.h"
 #include "support/scenes.h"
 
