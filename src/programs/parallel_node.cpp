@@ -12,11 +12,13 @@
 #include <string>
 #include <vector>
 
+#include "live_stiffness/parallel/parallel_scene_file.h"
+#include "parallel/parameters.h"
 #include "programs/parallel_markers.h"
 #include "ros/any_type_subscriber.h"
 #include "ros/clock_status.h"
 #include "ros/node_process.h"
-#include "programs/parallel_parameters.h"
+#include "ros/parameter_reader.h"
 #include "ros/pose_output.h"
 #include "ros/solver_report.h"
 #include "ros/wrench_input.h"
@@ -24,6 +26,50 @@
 namespace {
 
 using namespace live_stiffness;
+// Private parameters; parallel/parameters.h says what each is.
+struct ParallelParameters {
+  ParallelScene scene;
+  ParallelOptions model;
+  double heartbeat = kParallelHeartbeat.standard;  // Hz
+  std::string length_unit_name = kLengthUnit.standard;
+  double length_unit = 1.0;                             // m per unit of the lengths on the topic, by that name
+  double length_timeout = kLengthTimeout.standard;      // s
+  double wrench_timeout = kPlatformWrenchTimeout.standard;              // s; 0: keep the last one for ever
+  FrameNames frames{kParallelBaseFrame.standard, kPlatformFrame.standard};  // B, P
+  ParallelMarkerStyle style;                            // its frame is that of B
+  double marker_rate = kParallelMarkerRate.standard;    // Hz
+
+  template <class Parameters, class Visit>
+  static void forEachParameter(Parameters& p, Visit&& visit) {
+    visit(kParallelAccuracy, p.model.accuracy);
+    visit(kParallelHeartbeat, p.heartbeat);
+    visit(kLengthUnit, p.length_unit_name);
+    visit(kLengthTimeout, p.length_timeout);
+    visit(kPlatformWrenchTimeout, p.wrench_timeout);
+    visit(kParallelBaseFrame, p.frames.base);
+    visit(kPlatformFrame, p.frames.body);
+    visit(kParallelEllipsoidScale, p.style.ellipsoid_scale);
+    visit(kRotationEllipsoidScale, p.style.rotation_scale);
+    visit(kParallelMarkerRate, p.marker_rate);
+  }
+};
+
+// Reads and validates all of them. Throws ConfigurationError with every fault. Warns of unknown ones.
+ParallelParameters loadParallelParameters(const ros::NodeHandle& private_node) {
+  FaultList faults("parameters of " + private_node.getNamespace(), "~");
+  ParameterReader read(private_node, faults);
+  ParallelParameters parameters;
+  ParallelParameters::forEachParameter(parameters, read);
+  read.file(kSceneFile, loadParallelSceneFile, parameters.scene, true);
+  read.warnOfUnknown("parallel_node");
+  faults.checkAll(parameters);
+  checkFrames(parameters.frames, kPlatformFrame, faults);
+  faults.throwIfAny();
+  parameters.length_unit = parameters.length_unit_name == "mm" ? 1e-3 : 1.0;
+  parameters.style.frame = parameters.frames.base;
+  return parameters;
+}
+
 
 PlatformEstimate toEstimate(const ParallelEstimate& estimate, const ros::Time& stamp, const std::string& frame) {
   PlatformEstimate message;

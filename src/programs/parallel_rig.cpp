@@ -48,7 +48,7 @@ class ParallelRig {
     FaultList faults("parameters of " + private_node.getNamespace(), "~");
     ParameterReader read(private_node, faults);
     ParallelScene scene;
-    read.requiredFile(kSceneFile, loadParallelSceneFile, scene);
+    read.file(kSceneFile, loadParallelSceneFile, scene, true);
     Motion::forEachParameter(motion, read);
     read.warnOfUnknown("parallel_rig");
     faults.checkAll(motion);

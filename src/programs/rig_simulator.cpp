@@ -3,13 +3,56 @@
 
 #include <ros/ros.h>
 
+#include "live_stiffness/rod/scene_file.h"
+#include "rig/rig_model.h"
 #include "ros/conversions.h"
 #include "ros/node_process.h"
-#include "rig_parameters.h"
+#include "ros/parameter_reader.h"
 
 namespace {
 
 using namespace live_stiffness;
+
+// Private parameters; rig/parameters.h says what each is.
+struct RigParameters {
+  Scene scene;
+  RigOptions options;
+  double rate = kSampleRate.standard;                     // samples per second
+  std::string tracker_frame = kRigTrackerFrame.standard;  // frame_id of the tracker's poses
+  std::string base_frame = kRigBaseFrame.standard;        // frame_id of the true tip pose and of the true wrench
+};
+
+Vector3 readVector3(ParameterReader& read, const NumbersParameter& parameter, FaultList& faults) {
+  std::vector<double> values = parameter.standard;
+  read(parameter, values);
+  if (values.size() == 3) return {values[0], values[1], values[2]};
+  faults.add(parameter.key + (" has " + std::to_string(values.size())) + " entries: must have three, x, y and z");
+  return Vector3::Zero();
+}
+
+// Reads and validates all of them. Throws ConfigurationError with every fault. Warns of unknown ones.
+RigParameters loadRigParameters(const ros::NodeHandle& private_node) {
+  FaultList faults("parameters of " + private_node.getNamespace(), "~");
+  ParameterReader read(private_node, faults);
+  RigParameters parameters;
+  RigOptions& options = parameters.options;
+  std::string program = kProgram.standard;
+  read(kProgram, program);
+  RigOptions::forEachParameter(options, read);
+  options.contact.wrench << readVector3(read, kPushForce, faults), readVector3(read, kPushMoment, faults);
+  read(kSampleRate, parameters.rate);
+  read(kRigTrackerFrame, parameters.tracker_frame);
+  read(kRigBaseFrame, parameters.base_frame);
+  read.file(kSceneFile, loadSceneFile, parameters.scene, true);
+  read.file(kRigRegistrationFile, loadRegistrationFile, options.registration);
+  read.warnOfUnknown("rig_simulator");
+  options.program.kind = programKind(program, faults);
+  faults.check(kSampleRate, parameters.rate);
+  faults.checkAll(options);
+  options.contact.check(faults);
+  faults.throwIfAny();
+  return parameters;
+}
 
 class RigSimulator {
  public:
@@ -21,7 +64,7 @@ class RigSimulator {
         truth_(ros::NodeHandle(private_node).advertise<geometry_msgs::PoseStamped>("true_tip_pose", 10)),
         true_wrench_(ros::NodeHandle(private_node).advertise<geometry_msgs::WrenchStamped>("true_tip_wrench", 10)),
         timer_(node.createTimer(ros::Duration(1.0 / parameters_.rate), &RigSimulator::onTimer, this)) {
-    if (Contact(parameters_.options.contact).exists())
+    if (parameters_.options.contact.exists())
       force_sensor_ = node.advertise<geometry_msgs::WrenchStamped>("tip_force_torque", 10);
   }
 

@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
   std::vector<double> push_n;
   int channels = 0;
   RigOptions rig_options;
-  ContactOptions& contact = rig_options.contact;
+  Contact& contact = rig_options.contact;
   po::options_description options = helpOption();
   options.add_options()
     ("scene", po::value(&scene_path)->required(), "scene file")

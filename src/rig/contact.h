@@ -6,7 +6,7 @@
 
 namespace live_stiffness {
 
-struct ContactOptions {
+struct Contact {
   Wrench wrench = Wrench::Zero();  // of the first push at its height: [f; m] at T, base axes, N and N m; finite.
                                    // Zero: nothing ever touches the tip
   double start = kPushStart.standard;        // when the first push begins, s
@@ -16,6 +16,7 @@ struct ContactOptions {
                                              // 0: one push only
   double turn = kPushTurn.si();              // of the wrench about z of the base from push to push, rad
 
+  // Of all but the wrench.
   template <class Options, class Visit>
   static void forEachParameter(Options& options, Visit&& visit) {
     visit(kPushStart, options.start);
@@ -24,24 +25,14 @@ struct ContactOptions {
     visit(kPushPeriod, options.period);
     visit(kPushTurn, options.turn);
   }
-};
-
-// A pure function of time. Rise and fall are quintic blends.
-class Contact {
- public:
-  // Throws ConfigurationError with every fault.
-  explicit Contact(const ContactOptions& options);
-
-  // Adds faults of options to a list.
-  static void check(const ContactOptions& options, FaultList& faults);
+  // Adds the faults of the wrench, and of numbers that do not fit together.
+  void check(FaultList& faults) const;
 
   // True if the pusher ever touches the tip.
-  bool exists() const { return !options_.wrench.isZero(0.0); }
-  // Dead wrench at T, base axes, at a time (s, finite); zero between pushes and before the first.
+  bool exists() const { return !wrench.isZero(0.0); }
+  // Dead wrench at T, base axes, at a time (s, finite); zero between pushes and before the first. Rise and fall are quintic
+  // blends.
   Wrench at(double time) const;
-
- private:
-  ContactOptions options_;
 };
 
 }  // namespace live_stiffness

@@ -18,8 +18,10 @@ struct Load {
   ChamberStiffnessOf<double> stiffness;  // of all pressures
 };
 
+// NaN where the section's area or moments run out.
 Vector3 loadRate(const SectionMoments& section, const Load& load, double share, const Vector3& state) {
   const double lam = state[0];
+  if (!section.isValidAt(lam)) return Vector3::Constant(std::nan(""));
   const ChamberStiffnessOf<double> on{share * load.stiffness.axial, share * load.stiffness.bending};
   Vector3 rate;
   rate[0] = lam * load.force / section.axialStiffness(lam, on);
@@ -27,20 +29,23 @@ Vector3 loadRate(const SectionMoments& section, const Load& load, double share, 
   return rate;
 }
 
-// Runge-Kutta over the load; false if the section's area or moments run out on the way.
+// One step h of the classical Runge-Kutta method for y' = rate(t, y).
+template <class State, class Rate>
+State rungeKuttaStep(const Rate& rate, double t, double h, const State& y) {
+  const State k1 = rate(t, y);
+  const State k2 = rate(t + 0.5 * h, y + 0.5 * h * k1);
+  const State k3 = rate(t + 0.5 * h, y + 0.5 * h * k2);
+  const State k4 = rate(t + h, y + h * k3);
+  return y + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+}
+
+// [stretch; curvature] under the whole load; false if the section's area or moments run out on the way.
 bool followLoad(const SectionMoments& section, const Load& load, Vector3& state) {
   const double h = 1.0 / FineRobot::kLoadSteps;
   state = Vector3(1.0, 0.0, 0.0);
   for (int step = 0; step < FineRobot::kLoadSteps; ++step) {
-    const double share = step * h;
-    const Vector3 k1 = loadRate(section, load, share, state);
-    if (!section.isValidAt(state[0] + 0.5 * h * k1[0])) return false;
-    const Vector3 k2 = loadRate(section, load, share + 0.5 * h, state + 0.5 * h * k1);
-    if (!section.isValidAt(state[0] + 0.5 * h * k2[0])) return false;
-    const Vector3 k3 = loadRate(section, load, share + 0.5 * h, state + 0.5 * h * k2);
-    if (!section.isValidAt(state[0] + h * k3[0])) return false;
-    const Vector3 k4 = loadRate(section, load, share + h, state + h * k3);
-    state += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+    state = rungeKuttaStep([&](double share, const Vector3& at) { return loadRate(section, load, share, at); }, step * h, h,
+                           state);
     if (!section.isValidAt(state[0])) return false;
   }
   return true;
@@ -101,35 +106,25 @@ FineRobot::RodState FineRobot::integrateChain(const std::vector<LoadedSegment>& 
       continue;
     }
     const Vector3 line_load = segment->mass * gravity / segment->length;
-    const auto rate = [&](const RodState& at, double s) {
-      const Matrix3 R = at.q.toRotationMatrix();  // at.q is not quite unit inside a step; normalised below
+    using Numbers = Eigen::Matrix<double, 10, 1>;  // of q (x, y, z, w), p and m
+    const auto rate = [&](double s, const Numbers& at) {
+      const Eigen::Quaterniond q = Eigen::Quaterniond(at.head<4>()).normalized();
+      const Matrix3 R = q.toRotationMatrix();
       const Vector3 force = n - s * line_load;
-      const Vector3 u = segment->rest_curvature + segment->c.bending_torsion * (R.transpose() * at.m);
-      RodState d;
-      d.p = R * (Vector3::UnitZ() + segment->c.shear_elongation * (R.transpose() * force));
-      d.q.coeffs() = 0.5 * (at.q * Eigen::Quaterniond(0.0, u.x(), u.y(), u.z())).coeffs();
-      d.m = -d.p.cross(force);
+      const Vector3 u = segment->rest_curvature + segment->c.bending_torsion * (R.transpose() * at.tail<3>());
+      const Vector3 dp = R * (Vector3::UnitZ() + segment->c.shear_elongation * (R.transpose() * force));
+      Numbers d;
+      d << 0.5 * (q * Eigen::Quaterniond(0.0, u.x(), u.y(), u.z())).coeffs(), dp, -dp.cross(force);
       return d;
     };
-    const auto moved = [](const RodState& from, const RodState& d, double h) {
-      RodState to{from.q, from.p + h * d.p, from.m + h * d.m};
-      to.q.coeffs() += h * d.q.coeffs();
-      to.q.normalize();
-      return to;
-    };
     const double h = segment->length / kRodSteps;
+    Numbers numbers;
+    numbers << state.q.coeffs(), state.p, state.m;
     for (int step = 0; step < kRodSteps; ++step) {
-      const double s = step * h;
-      const RodState k1 = rate(state, s);
-      const RodState k2 = rate(moved(state, k1, 0.5 * h), s + 0.5 * h);
-      const RodState k3 = rate(moved(state, k2, 0.5 * h), s + 0.5 * h);
-      const RodState k4 = rate(moved(state, k3, h), s + h);
-      RodState sum;
-      sum.q.coeffs() = k1.q.coeffs() + 2.0 * k2.q.coeffs() + 2.0 * k3.q.coeffs() + k4.q.coeffs();
-      sum.p = k1.p + 2.0 * k2.p + 2.0 * k3.p + k4.p;
-      sum.m = k1.m + 2.0 * k2.m + 2.0 * k3.m + k4.m;
-      state = moved(state, sum, h / 6.0);
+      numbers = rungeKuttaStep(rate, step * h, h, numbers);
+      numbers.head<4>().normalize();
     }
+    state = {Eigen::Quaterniond(numbers.head<4>()), numbers.segment<3>(4), numbers.tail<3>()};
     n -= segment->mass * gravity;
     ++segment;
   }

@@ -23,8 +23,6 @@ class FineRobot {
   // Throws ConfigurationError on a scene without segments.
   explicit FineRobot(Scene scene);
 
-  const Scene& scene() const { return scene_; }
-
   // Tip pose X_BT (m) for gauge pressures (Pa, one per chamber, base to tip) and a dead wrench at T (base axes).
   // Empty if the pressures are not finite, of the wrong number, or beyond the section's range, or if no equilibrium
   // is found. Starts from the last equilibrium.

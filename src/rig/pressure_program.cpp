@@ -50,19 +50,10 @@ double alongWalk(const std::vector<double>& levels, double periods) {
 
 }  // namespace
 
-const char* programName(ProgramKind kind) {
-  switch (kind) {
-    case ProgramKind::kTriangle: return "triangle";
-    case ProgramKind::kStaircase: return "staircase";
-    case ProgramKind::kRandomWalk: return "random_walk";
-  }
-  return "unknown";
-}
-
 ProgramKind programKind(const std::string& name, FaultList& faults) {
-  for (ProgramKind kind : {ProgramKind::kTriangle, ProgramKind::kStaircase, ProgramKind::kRandomWalk})
-    if (name == programName(kind)) return kind;
   faults.check(kProgram, name);
+  for (size_t k = 0; k < kProgram.choices.size(); ++k)
+    if (name == kProgram.choices[k]) return static_cast<ProgramKind>(k);
   return ProgramKind::kTriangle;
 }
 

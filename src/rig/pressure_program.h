@@ -15,9 +15,7 @@ enum class ProgramKind {
   kRandomWalk,  // each channel on its own: a new level every period, at most half the amplitude from the last one
 };
 
-// Name in parameter files: "triangle", "staircase", "random_walk". The way back adds a fault and returns kTriangle for
-// any other text.
-const char* programName(ProgramKind kind);
+// The kind of this name in kProgram, whose choices stand in the order of the kinds. Adds a fault for any other name.
 ProgramKind programKind(const std::string& name, FaultList& faults);
 
 struct ProgramOptions {
@@ -41,9 +39,6 @@ class PressureProgram {
  public:
   // channels: 1 to 1024. Throws ConfigurationError with every fault.
   PressureProgram(int channels, const ProgramOptions& options);
-
-  int channelCount() const { return channels_; }
-  const ProgramOptions& options() const { return options_; }
 
   // Commanded gauge pressures (Pa, one per channel) at a time (s, finite).
   Pressures at(double time) const;

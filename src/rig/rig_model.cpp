@@ -34,7 +34,7 @@ void checkNumbers(const RigOptions& options, FaultList& faults) {
   checkPose("base_in_tracker", options.registration.X_AB, faults);
   checkPose("sensor_on_tip", options.registration.X_TS, faults);
   if (!options.tip_wrench.allFinite()) faults.add("tip_wrench: must be finite");
-  Contact::check(options.contact, faults);
+  options.contact.check(faults);
 }
 
 // The map, after a look at everything, so that all faults come out together.
@@ -82,8 +82,7 @@ RigModel::RigModel(Scene scene, const RigOptions& options)
       program_(channel_map_.channelCount(), seeded(options.program, random_)),
       robot_(std::move(scene)),
       regulator_(channel_map_.channelCount(), options.regulator_time_constant),
-      creep_(channel_map_.chamberCount(), options.creep_time_constant),
-      contact_(options.contact) {
+      creep_(channel_map_.chamberCount(), options.creep_time_constant) {
   std::uniform_real_distribution<double> phase(0.0, 2.0 * kPi);
   for (int channel = 0; channel < channel_map_.channelCount(); ++channel) {
     const double a = phase(random_), b = phase(random_), c = phase(random_);
@@ -129,7 +128,7 @@ RigSample RigModel::step(double time) {
   sample.actual_chambers = channel_map_.expand(actual);
   sample.effective_chambers = (1.0 - options_.creep_fraction) * sample.actual_chambers +
                               options_.creep_fraction * creep_.update(sample.actual_chambers, elapsed);
-  sample.contact_wrench = contact_.at(time);
+  sample.contact_wrench = options_.contact.at(time);
   const std::optional<Pose> X_BT = robot_.solve(sample.effective_chambers, options_.tip_wrench + sample.contact_wrench);
   if (!X_BT) throw std::runtime_error("the simulated robot finds no equilibrium at " + numberText(time) + " s");
   sample.X_BT = *X_BT;

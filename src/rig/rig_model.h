@@ -47,7 +47,7 @@ struct RigOptions {
   double drop_out_duration = kDropOutDuration.standard;        // s
 
   Wrench tip_wrench = Wrench::Zero();  // dead wrench at T, base axes, N and N m; finite
-  ContactOptions contact;              // what pushes the tip beside it now and then
+  Contact contact;                     // what pushes the tip beside it now and then
 
   // Of all but the wrenches and the registration.
   template <class Options, class Visit>
@@ -63,6 +63,7 @@ struct RigOptions {
     visit(kRotationNoise, options.rotation_noise);
     visit(kDropOutProbability, options.drop_out_probability);
     visit(kDropOutDuration, options.drop_out_duration);
+    Contact::forEachParameter(options.contact, visit);
   }
 };
 
@@ -87,10 +88,6 @@ class RigModel {
   // scene without segments, or pressures (amplitude plus regulator error) beyond the sections' range.
   RigModel(Scene scene, const RigOptions& options);
 
-  const Scene& scene() const { return robot_.scene(); }
-  const ChannelMap& channelMap() const { return channel_map_; }
-  const RigOptions& options() const { return options_; }
-
   // Takes the rig from the last time to `time` (s) and returns what is seen there. The first call starts from rest at
   // time 0. Equal seeds and equal times give equal samples. Between two calls the command counts as linear, so steps
   // of at most a tenth of the program's period keep its shape. Throws std::invalid_argument if time is not finite,
@@ -108,7 +105,6 @@ class RigModel {
   FineRobot robot_;
   FirstOrderLag regulator_;  // of channels
   FirstOrderLag creep_;      // of chambers
-  Contact contact_;
   MotionHistory history_;
   std::vector<Vector3> error_phases_;  // rad, three components per channel
   double time_ = 0.0;

@@ -63,7 +63,7 @@ NodeParameters loadNodeParameters(const ros::NodeHandle& private_node) {
   ParameterReader read(private_node, faults);
   NodeParameters parameters;
   NodeParameters::forEachParameter(parameters, read);
-  read.requiredFile(kSceneFile, loadSceneFile, parameters.scene);
+  read.file(kSceneFile, loadSceneFile, parameters.scene, true);
   read.file(kRegistrationFile, loadRegistrationFile, parameters.registration);
   read.warnOfUnknown("stiffness_node");
   complete(parameters, faults);

@@ -22,36 +22,77 @@ class ParameterReader {
   ParameterReader(const XmlRpc::XmlRpcValue& values, FaultList& faults) : values_(values), faults_(faults) {}
 
   // si: the value in SI, whatever the unit of the key. Whole numbers are accepted where numbers are wanted.
-  void operator()(const NumberParameter& parameter, double& si);
+  void operator()(const NumberParameter& parameter, double& si) {
+    double value;
+    if (read(parameter.key, "a number, " + parameter.range.text(), value)) si = value * parameter.unit;
+  }
   template <class Whole>
-  void operator()(const NumberParameter& parameter, Whole& value);
-  void operator()(const BooleanParameter& parameter, bool& value);
-  void operator()(const ChoiceParameter& parameter, std::string& value);
-  void operator()(const TextParameter& parameter, std::string& value);
-  void operator()(const FrameParameter& parameter, std::string& value);
-  void operator()(const NumbersParameter& parameter, std::vector<double>& values);
-  void operator()(const NumbersParameter& parameter, std::vector<int>& values);  // whole numbers
-  void operator()(const TextsParameter& parameter, std::vector<std::string>& values);
+  void operator()(const NumberParameter& parameter, Whole& value) {
+    double number;
+    if (!read(parameter.key, "a number, " + parameter.range.text(), number)) return;
+    if (parameter.range.contains(number) && number == std::floor(number)) value = static_cast<Whole>(number);
+    else faults_.add(parameter.key + (" = " + numberText(number)) + ": must be a whole number, " + parameter.range.text());
+  }
+  void operator()(const BooleanParameter& parameter, bool& value) {
+    read(parameter.key, "true or false, without quotes", value);
+  }
+  void operator()(const ChoiceParameter& parameter, std::string& value) { read(parameter.key, "a text", value); }
+  void operator()(const TextParameter& parameter, std::string& value) { read(parameter.key, "a text", value); }
+  void operator()(const FrameParameter& parameter, std::string& value) {
+    read(parameter.key, "a text", value);
+    value = withoutSlash(value);
+  }
+  void operator()(const NumbersParameter& parameter, std::vector<double>& values) {
+    read(parameter.key, "a list of numbers, each " + parameter.range.text(), values);
+  }
+  void operator()(const NumbersParameter& parameter, std::vector<int>& values) {
+    read(parameter.key, "a list of whole numbers, each " + parameter.range.text(), values);
+  }
+  void operator()(const TextsParameter& parameter, std::vector<std::string>& values) {
+    read(parameter.key, "a list of texts", values);
+  }
 
   // What `load` makes of the file at a path, if there is one; its faults are taken over.
   template <class Value, class Load>
-  void file(const FileParameter& parameter, Load load, Value& value);
-  // The same of a file that must be there.
-  template <class Value, class Load>
-  void requiredFile(const FileParameter& parameter, Load load, Value& value);
+  void file(const FileParameter& parameter, Load load, Value& value, bool is_required = false) {
+    std::string path;
+    read(parameter.key, "a text", path);
+    if (path.empty() && is_required) faults_.add(std::string(parameter.key) + " is missing: must be the path of a file");
+    if (path.empty()) return;
+    try {
+      value = load(path);
+    } catch (const ConfigurationError& error) {
+      for (const std::string& fault : error.faults()) faults_.add(parameter.key + (" " + path) + ": " + fault);
+    }
+  }
 
   // Warns of private parameters that nobody asked for: likely misspelt.
   void warnOfUnknown(const std::string& node) const;
 
  private:
-  // The value of a key, or nullptr if it is not set.
-  XmlRpc::XmlRpcValue* find(const char* key);
-  bool number(const NumberParameter& parameter, double& value);
-  void text(const char* key, std::string& value);
-  // Fills a list if the value is one of elements that `read` takes, else adds a fault.
-  template <class Element, class Read>
-  void list(const char* key, const std::string& wanted, Read read, std::vector<Element>& values);
-  void wrongType(const char* key, const std::string& wanted);
+  // True if the key is set to a value of the field's type; a value of another type is a fault.
+  template <class Field>
+  bool read(const char* key, const std::string& wanted, Field& field) {
+    asked_.insert(key);
+    if (values_.getType() != XmlRpc::XmlRpcValue::TypeStruct || !values_.hasMember(key)) return false;
+    Field found;
+    const bool is_good = convert(values_[key], found);
+    if (is_good) field = found;
+    else faults_.add(key + (": must be " + wanted));
+    return is_good;
+  }
+  static bool convert(XmlRpc::XmlRpcValue& value, double& number);
+  static bool convert(XmlRpc::XmlRpcValue& value, int& number);
+  static bool convert(XmlRpc::XmlRpcValue& value, bool& truth);
+  static bool convert(XmlRpc::XmlRpcValue& value, std::string& text);
+  template <class Element>
+  static bool convert(XmlRpc::XmlRpcValue& value, std::vector<Element>& list) {
+    if (value.getType() != XmlRpc::XmlRpcValue::TypeArray) return false;
+    list.resize(value.size());
+    for (size_t i = 0; i < list.size(); ++i)
+      if (!convert(value[static_cast<int>(i)], list[i])) return false;
+    return true;
+  }
 
   XmlRpc::XmlRpcValue values_;
   FaultList& faults_;
@@ -60,33 +101,5 @@ class ParameterReader {
 
 // Adds a fault unless base and body are two different names. body: the parameter that names it.
 void checkFrames(const FrameNames& frames, const FrameParameter& body, FaultList& faults);
-
-template <class Whole>
-void ParameterReader::operator()(const NumberParameter& parameter, Whole& value) {
-  double read;
-  if (!number(parameter, read)) return;
-  if (parameter.range.contains(read) && read == std::floor(read)) value = static_cast<Whole>(read);
-  else faults_.add(parameter.key + (" = " + numberText(read)) + ": must be a whole number, " + parameter.range.text());
-}
-
-template <class Value, class Load>
-void ParameterReader::file(const FileParameter& parameter, Load load, Value& value) {
-  std::string path;
-  text(parameter.key, path);
-  if (path.empty()) return;
-  try {
-    value = load(path);
-  } catch (const ConfigurationError& error) {
-    for (const std::string& fault : error.faults()) faults_.add(parameter.key + (" " + path) + ": " + fault);
-  }
-}
-
-template <class Value, class Load>
-void ParameterReader::requiredFile(const FileParameter& parameter, Load load, Value& value) {
-  std::string path;
-  text(parameter.key, path);
-  if (path.empty()) faults_.add(std::string(parameter.key) + " is missing: must be the path of a file");
-  file(parameter, load, value);
-}
 
 }  // namespace live_stiffness

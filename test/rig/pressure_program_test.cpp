@@ -14,8 +14,8 @@ ProgramOptions options(ProgramKind kind, std::uint64_t seed = 1) { return {kind,
 TEST(PressureProgram, StartsAtZeroOnEveryChannel) {
   for (ProgramKind kind : kKinds) {
     const PressureProgram program(3, options(kind));
-    EXPECT_EQ(program.at(0.0), Pressures::Zero(3)) << programName(kind);
-    EXPECT_EQ(program.at(-5.0), Pressures::Zero(3)) << programName(kind);
+    EXPECT_EQ(program.at(0.0), Pressures::Zero(3)) << static_cast<int>(kind);
+    EXPECT_EQ(program.at(-5.0), Pressures::Zero(3)) << static_cast<int>(kind);
   }
 }
 
@@ -25,11 +25,11 @@ TEST(PressureProgram, StaysWithinTheAmplitudeAndUsesMostOfIt) {
     Pressures highest = Pressures::Zero(3);
     for (double t = 0.0; t < 1000.0; t += 0.1) {
       const Pressures p = program.at(t);
-      ASSERT_GE(p.minCoeff(), 0.0) << programName(kind) << " at " << t;
-      ASSERT_LE(p.maxCoeff(), 80000.0) << programName(kind) << " at " << t;
+      ASSERT_GE(p.minCoeff(), 0.0) << static_cast<int>(kind) << " at " << t;
+      ASSERT_LE(p.maxCoeff(), 80000.0) << static_cast<int>(kind) << " at " << t;
       highest = highest.cwiseMax(p);
     }
-    EXPECT_GT(highest.minCoeff(), 0.9 * 80000.0) << programName(kind);
+    EXPECT_GT(highest.minCoeff(), 0.9 * 80000.0) << static_cast<int>(kind);
   }
 }
 
@@ -41,7 +41,7 @@ TEST(PressureProgram, NeverJumps) {
     const PressureProgram program(3, options(kind));
     for (double t = 0.0; t < 130.0; t += dt)  // all three channels of the staircase, and over its end
       ASSERT_LE((program.at(t + dt) - program.at(t)).cwiseAbs().maxCoeff(), 1.001 * steepest * dt)
-          << programName(kind) << " at " << t;
+          << static_cast<int>(kind) << " at " << t;
   }
 }
 
@@ -91,7 +91,9 @@ TEST(PressureProgram, RefusesBadOptionsAllAtOnce) {
 
 TEST(PressureProgram, NamesReadBack) {
   FaultList faults("test");
-  for (ProgramKind kind : kKinds) EXPECT_EQ(programKind(programName(kind), faults), kind);
+  EXPECT_EQ(programKind("triangle", faults), ProgramKind::kTriangle);
+  EXPECT_EQ(programKind("staircase", faults), ProgramKind::kStaircase);
+  EXPECT_EQ(programKind("random_walk", faults), ProgramKind::kRandomWalk);
   EXPECT_TRUE(faults.empty());
   programKind("square", faults);
   EXPECT_EQ(faults.faults().size(), 1u);
