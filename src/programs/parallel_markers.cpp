@@ -9,12 +9,9 @@
 namespace live_stiffness {
 namespace {
 
-using visualization_msgs::Marker;
-using visualization_msgs::MarkerArray;
-
 // A plate through points in their order around their mean.
-void setPlate(Marker& marker, std::vector<Vector3> corners, const std_msgs::ColorRGBA& shade) {
-  marker.color = shade;
+void addPlate(const std::string& name, std::vector<Vector3> corners, const std_msgs::ColorRGBA& shade, Picture& picture) {
+  visualization_msgs::Marker& marker = picture.add(name, 0, visualization_msgs::Marker::TRIANGLE_LIST, shade);
   Vector3 centre = Vector3::Zero();
   for (const Vector3& corner : corners) centre += corner / corners.size();
   // Around the mean, in the plane of the first corner and the one farthest from the line through it.
@@ -44,36 +41,27 @@ std::string eigenvalueText(const ParallelEstimate& estimate, bool stale) {
 
 }  // namespace
 
-MarkerArray makeParallelMarkers(const ParallelEstimate& estimate, const ParallelScene& scene, bool stale,
-                                const ParallelMarkerStyle& style, const ros::Time& stamp) {
-  MarkerArray markers;
-  markers.markers.reserve(estimate.rods.size() + 5);
-  const auto add = [&](const std::string& name, int id, int type) -> Marker& {
-    markers.markers.push_back(newMarker(style.frame, stamp, name, id, type));
-    return markers.markers.back();
-  };
+visualization_msgs::MarkerArray makeParallelMarkers(const ParallelEstimate& estimate, const ParallelScene& scene, bool stale,
+                                                    const ParallelMarkerStyle& style, const ros::Time& stamp) {
+  Picture picture(style.frame, stamp);
   const Pose& X_BP = estimate.solution.X_BP;
   std::vector<Vector3> holes, ends;
   for (size_t i = 0; i < estimate.rods.size(); ++i) {
     holes.push_back(scene.rods[i].X_BD.p);
     ends.push_back(X_BP * scene.rods[i].X_PE.p);
     const double share = i / std::max(1.0, estimate.rods.size() - 1.0);
-    setTube(add("rods", static_cast<int>(i), Marker::TRIANGLE_LIST), estimate.rods[i],
-            std::max(style.tube_radius, scene.rods[i].section.outer_radius), {blueToRed(share, stale)});
+    picture.addTube("rods", static_cast<int>(i), estimate.rods[i],
+                    std::max(style.tube_radius, scene.rods[i].section.outer_radius), {blueToRed(share, stale)});
   }
-  setPlate(add("base", 0, Marker::TRIANGLE_LIST), holes, color(0.45, 0.45, 0.5, 1.0));
-  setPlate(add("platform", 0, Marker::TRIANGLE_LIST), ends,
-           stale ? color(0.6, 0.6, 0.6, 0.8) : color(0.3, 0.75, 0.55, 0.8));
-  Marker& translation = add("translation_ellipsoid", 0, Marker::SPHERE);
-  setEllipsoid(translation, estimate.ellipsoids.translation, X_BP.p, style.ellipsoid_scale);
-  translation.color = stale ? color(0.5, 0.5, 0.5, 0.5) : color(1.0, 0.6, 0.15, 0.75);
-  Marker& rotation = add("rotation_ellipsoid", 0, Marker::SPHERE);
-  setEllipsoid(rotation, estimate.ellipsoids.rotation, X_BP.p, style.rotation_scale);
-  rotation.color = stale ? color(0.6, 0.6, 0.6, 0.35) : color(0.35, 0.65, 1.0, 0.5);
-  Marker& text = add("text", 0, Marker::TEXT_VIEW_FACING);
-  setText(text, X_BP.p + Vector3(0.0, 0.0, 0.09), 0.02, eigenvalueText(estimate, stale));
-  if (stale) text.color = color(1.0, 0.3, 0.2, 1.0);
-  return markers;
+  addPlate("base", holes, color(0.45, 0.45, 0.5), picture);
+  addPlate("platform", ends, stale ? color(0.6, 0.6, 0.6, 0.8) : color(0.3, 0.75, 0.55, 0.8), picture);
+  picture.addEllipsoid("translation_ellipsoid", 0, estimate.ellipsoids.translation, X_BP.p, style.ellipsoid_scale,
+                       stale ? color(0.5, 0.5, 0.5, 0.5) : color(1.0, 0.6, 0.15, 0.75));
+  picture.addEllipsoid("rotation_ellipsoid", 0, estimate.ellipsoids.rotation, X_BP.p, style.rotation_scale,
+                       stale ? color(0.6, 0.6, 0.6, 0.35) : color(0.35, 0.65, 1.0, 0.5));
+  picture.addText("text", 0, X_BP.p + Vector3(0.0, 0.0, 0.09), 0.02, eigenvalueText(estimate, stale),
+                  stale ? color(1.0, 0.3, 0.2) : color(1.0, 1.0, 1.0));
+  return picture.markers();
 }
 
 }  // namespace live_stiffness

@@ -31,43 +31,39 @@ std_msgs::ColorRGBA blueToRed(double fraction, bool stale) {
   return color(0.9, 0.9 - 1.4 * (x - 0.5), 0.9 - 1.4 * (x - 0.5), 1.0);
 }
 
-Marker newMarker(const std::string& frame, const ros::Time& stamp, const std::string& name, int id, int type) {
-  Marker marker;
-  marker.header.frame_id = frame;
-  marker.header.stamp = stamp;
+Marker& Picture::add(const std::string& name, int id, int type, const Color& shade) {
+  Marker& marker = markers_.markers.emplace_back();
+  marker.header.frame_id = frame_;
+  marker.header.stamp = stamp_;
   marker.ns = name;
   marker.id = id;
   marker.type = type;
   marker.action = Marker::ADD;
   marker.pose.orientation.w = 1.0;
   marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
-  marker.color = color(1.0, 1.0, 1.0, 1.0);
+  marker.color = shade;
   return marker;
 }
 
-void setTube(Marker& marker, const std::vector<Pose>& sections, double radius,
-             const std::vector<std_msgs::ColorRGBA>& colors) {
+void Picture::addTube(const std::string& name, int id, const std::vector<Pose>& sections, double radius,
+                      const std::vector<Color>& colors) {
   constexpr int kSides = 12;
-  marker.type = Marker::TRIANGLE_LIST;
-  marker.color = colors.front();  // rviz reads the transparency of the whole marker from here
+  constexpr int kCorners[6][2] = {{0, 0}, {0, 1}, {1, 0}, {1, 0}, {0, 1}, {1, 1}};  // of the two triangles of a side
+  // rviz reads the transparency of the whole marker from its own colour.
+  Marker& marker = add(name, id, Marker::TRIANGLE_LIST, colors.front());
   const auto corner = [&](size_t i, int side) {
     const double angle = 2.0 * kPi * side / kSides;
     marker.points.push_back(toPoint(sections[i] * Vector3(radius * std::cos(angle), radius * std::sin(angle), 0.0)));
     marker.colors.push_back(colors.size() > 1 ? colors[i] : colors.front());
   };
-  for (size_t i = 0; i + 1 < sections.size(); ++i) {
-    for (int side = 0; side < kSides; ++side) {
-      corner(i, side);
-      corner(i, side + 1);
-      corner(i + 1, side);
-      corner(i + 1, side);
-      corner(i, side + 1);
-      corner(i + 1, side + 1);
-    }
-  }
+  for (size_t i = 0; i + 1 < sections.size(); ++i)
+    for (int side = 0; side < kSides; ++side)
+      for (const auto& [along, around] : kCorners) corner(i + along, side + around);
 }
 
-void setEllipsoid(Marker& marker, const Ellipsoid& ellipsoid, const Vector3& centre, double scale) {
+void Picture::addEllipsoid(const std::string& name, int id, const Ellipsoid& ellipsoid, const Vector3& centre,
+                           double scale, const Color& shade) {
+  Marker& marker = add(name, id, Marker::SPHERE, shade);
   marker.pose = toPose({ellipsoid.directions, centre});
   const auto diameter = [&](int k) {  // SPHERE's scale is the full axis
     return std::clamp(2.0 * scale * std::abs(ellipsoid.half_axes[k]), kSmallestDrawn, kLargestDrawn);
@@ -77,31 +73,38 @@ void setEllipsoid(Marker& marker, const Ellipsoid& ellipsoid, const Vector3& cen
   marker.scale.z = diameter(2);
 }
 
-void setBall(Marker& marker, const Vector3& centre, double diameter, const std_msgs::ColorRGBA& shade) {
+void Picture::addBall(const std::string& name, int id, const Vector3& centre, double diameter, const Color& shade) {
+  Marker& marker = add(name, id, Marker::SPHERE, shade);
   marker.pose.position = toPoint(centre);
   marker.scale.x = marker.scale.y = marker.scale.z = diameter;
-  marker.color = shade;
 }
 
-void setArrow(Marker& marker, const Vector3& from, const Vector3& to, const std_msgs::ColorRGBA& shade) {
-  marker.type = Marker::ARROW;
+void Picture::addArrow(const std::string& name, int id, const Vector3& from, const Vector3& to, const Color& shade) {
+  Marker& marker = add(name, id, Marker::ARROW, shade);
   marker.points = {toPoint(from), toPoint(to)};
   marker.scale.x = 0.0012;  // shaft
   marker.scale.y = 0.003;   // head
   marker.scale.z = 0.005;
-  marker.color = shade;
   if ((to - from).norm() < kSmallestDrawn) marker.action = Marker::DELETE;
 }
 
-void setText(Marker& marker, const Vector3& place, double height, const std::string& text) {
-  marker.type = Marker::TEXT_VIEW_FACING;
+void Picture::addLine(const std::string& name, int id, const Vector3& from, const Vector3& to, double width,
+                      const Color& shade) {
+  Marker& marker = add(name, id, Marker::LINE_LIST, shade);
+  marker.points = {toPoint(from), toPoint(to)};
+  marker.scale.x = width;
+}
+
+void Picture::addText(const std::string& name, int id, const Vector3& place, double height, const std::string& text,
+                      const Color& shade) {
+  Marker& marker = add(name, id, Marker::TEXT_VIEW_FACING, shade);
   marker.pose.position = toPoint(place);
   marker.scale.z = height;
   marker.text = text;
 }
 
-void deleteAll(visualization_msgs::MarkerArray& markers) {
-  for (Marker& marker : markers.markers) marker.action = Marker::DELETE;
+void Picture::removeAll() {
+  for (Marker& marker : markers_.markers) marker.action = Marker::DELETE;
 }
 
 }  // namespace live_stiffness

@@ -112,8 +112,9 @@ void TipHandle::insertMarker(const Pose& X_BT) {
   ball.interaction_mode = InteractiveMarkerControl::MOVE_3D;
   ball.always_visible = true;
   // A marker without a frame is in the frame of the handle.
-  ball.markers.push_back(newMarker("", ros::Time(), "", 0, visualization_msgs::Marker::SPHERE));
-  setBall(ball.markers.back(), Vector3::Zero(), 0.35 * marker.scale, color(0.9, 0.9, 0.95, 0.35));
+  Picture sphere("", ros::Time());
+  sphere.addBall("", 0, Vector3::Zero(), 0.35 * marker.scale, color(0.9, 0.9, 0.95, 0.35));
+  ball.markers = sphere.markers().markers;
   marker.controls.push_back(ball);
   server_.insert(marker, [this](const InteractiveMarkerFeedback::ConstPtr& feedback) {
     if (feedback->event_type == InteractiveMarkerFeedback::POSE_UPDATE) drag(*feedback);
