@@ -16,16 +16,16 @@
 #include "parallel/parameters.h"
 #include "programs/parallel_markers.h"
 #include "ros/any_type_subscriber.h"
-#include "ros/clock_status.h"
 #include "ros/node_process.h"
 #include "ros/parameter_reader.h"
 #include "ros/pose_output.h"
-#include "ros/solver_report.h"
+#include "ros/shared_diagnostics.h"
 #include "ros/wrench_input.h"
 
 namespace {
 
 using namespace live_stiffness;
+
 // Private parameters; parallel/parameters.h says what each is.
 struct ParallelParameters {
   ParallelScene scene;
@@ -69,7 +69,6 @@ ParallelParameters loadParallelParameters(const ros::NodeHandle& private_node) {
   parameters.style.frame = parameters.frames.base;
   return parameters;
 }
-
 
 PlatformEstimate toEstimate(const ParallelEstimate& estimate, const ros::Time& stamp, const std::string& frame) {
   PlatformEstimate message;

@@ -1,7 +1,5 @@
 #include "ros/contact_output.h"
 
-#include <diagnostic_updater/DiagnosticStatusWrapper.h>
-
 #include <Eigen/Eigenvalues>
 #include <cmath>
 

@@ -1,6 +1,7 @@
 #pragma once
 // Estimate of the external wrench at the tip: its topics, markers and diagnostics.
 
+#include <diagnostic_updater/DiagnosticStatusWrapper.h>
 #include <live_stiffness/TipContact.h>
 #include <ros/node_handle.h>
 
@@ -10,10 +11,6 @@
 #include "live_stiffness/estimation/tip_wrench_estimator.h"
 #include "ros/markers.h"
 #include "ros/node_parameters.h"
-
-namespace diagnostic_updater {
-class DiagnosticStatusWrapper;
-}
 
 namespace live_stiffness {
 

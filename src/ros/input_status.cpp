@@ -1,6 +1,5 @@
 #include "ros/input_status.h"
 
-#include <diagnostic_updater/DiagnosticStatusWrapper.h>
 #include <ros/console.h>
 
 #include <cmath>

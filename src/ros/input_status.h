@@ -2,6 +2,7 @@
 // Status of one input topic: how old its newest good message is, how fast good ones come, and what was wrong with the
 // last bad one.
 
+#include <diagnostic_updater/DiagnosticStatusWrapper.h>
 #include <ros/time.h>
 
 #include <Eigen/Core>
@@ -9,10 +10,6 @@
 #include <string>
 
 #include "ros/parsed.h"
-
-namespace diagnostic_updater {
-class DiagnosticStatusWrapper;
-}
 
 namespace live_stiffness {
 
@@ -25,8 +22,7 @@ class InputStatus {
   // its own, or the time of arrival if it has none or if another clock wrote it (more than ten seconds behind ROS time, or
   // half a second ahead). None if the message must be left out, because the previous one was newer by at most a second. If
   // it was newer by more, a clock was set, as when a driver or a bag restarts.
-  std::optional<ros::Time> accept(const ros::Time& stamp) { return accept(stamp, ros::Time::now()); }
-  std::optional<ros::Time> accept(const ros::Time& stamp, const ros::Time& now);
+  std::optional<ros::Time> accept(const ros::Time& stamp, const ros::Time& now = ros::Time::now());
   // Call it for a message that cannot be used: error() is the reason until the next good one.
   void reject(const std::string& error);
   // Counts an error, and logs it at most once a second.
@@ -36,12 +32,10 @@ class InputStatus {
 
   // Age of the last good message by its stamp, s. It grows while none comes, and is large at once if messages are late. A very
   // large number before the first message, and after ROS time has jumped back.
-  double age() const { return age(ros::Time::now()); }
-  double age(const ros::Time& now) const;
+  double age(const ros::Time& now = ros::Time::now()) const;
   bool hasMessage() const { return accepted_ > 0; }
   // Forgets ages and rates if ROS time jumped back, as when a bag is played in a loop. Call it regularly.
-  void checkClock() { checkClock(ros::Time::now()); }
-  void checkClock(const ros::Time& now);
+  void checkClock(const ros::Time& now = ros::Time::now());
   // Forgets ages and rates.
   void restart();
 

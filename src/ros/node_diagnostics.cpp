@@ -3,8 +3,7 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <diagnostic_updater/update_functions.h>
 
-#include "ros/clock_status.h"
-#include "ros/solver_report.h"
+#include "ros/shared_diagnostics.h"
 #include "ros/stiffness_node.h"
 
 namespace live_stiffness {

@@ -6,7 +6,7 @@
 
 #include <memory>
 
-#include "ros/master_check.h"
+#include "ros/node_process.h"
 #include "ros/stiffness_node.h"
 
 namespace live_stiffness {

@@ -27,6 +27,10 @@ class StiffnessServices {
   bool directionalStiffness(DirectionalStiffness::Request& request, DirectionalStiffness::Response& response);
 
  private:
+  // Fills what all answers have. answer: fills the rest for the newest estimate; returns why it cannot, empty if it can.
+  template <class Response, class Answer>
+  bool reply(Response& response, Answer answer);
+
   FrameNames frames_;
   GetSnapshot get_snapshot_;
   ModelWorkspace solver_;

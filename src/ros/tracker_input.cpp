@@ -1,6 +1,5 @@
 #include "ros/tracker_input.h"
 
-#include <diagnostic_updater/DiagnosticStatusWrapper.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 

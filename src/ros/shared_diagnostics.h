@@ -1,13 +1,16 @@
 #pragma once
-// Status of ROS time, for diagnostics: simulated time that has not begun, stands still or jumped back.
+// Entries of diagnostics that both nodes have: clock and solver.
 
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
 #include <ros/time.h>
+
+#include <string>
 
 #include "ros/parsed.h"
 
 namespace live_stiffness {
 
+// Status of ROS time: simulated time that has not begun, stands still or jumped back.
 class ClockStatus {
  public:
   // Call it from a wall timer: while ROS time stands still, no ros::Timer fires.
@@ -31,5 +34,25 @@ class ClockStatus {
   ros::Time last_;                // at the last call
   ros::WallTime jumped_, moved_;  // when it jumped back, and when it was last seen to advance
 };
+
+// Status of the solver. estimator: StiffnessEstimator or ParallelEstimator. wrench_error: what is wrong with the known wrench,
+// or empty.
+template <class Estimator>
+void reportSolver(const Estimator& estimator, const std::string& wrench_error,
+                  diagnostic_updater::DiagnosticStatusWrapper& status) {
+  using diagnostic_msgs::DiagnosticStatus;
+  if (!estimator.status().ok())
+    status.summary(DiagnosticStatus::ERROR, estimator.statusText());
+  else if (estimator.estimate() == nullptr)
+    status.summary(DiagnosticStatus::WARN, "nothing solved yet");
+  else if (!wrench_error.empty())
+    status.summary(DiagnosticStatus::WARN, wrench_error);
+  else
+    status.summary(DiagnosticStatus::OK, "ok");
+  if (estimator.estimate() == nullptr) return;
+  status.add("solve time (us)", 1e6 * estimator.estimate()->solve_time);
+  status.add("iterations", estimator.estimate()->solution.iterations);
+  status.add("numerical error", estimator.estimate()->solution.numerical_error);
+}
 
 }  // namespace live_stiffness
