@@ -18,20 +18,12 @@ YamlMap::YamlMap(const YAML::Node& node, std::string path, FaultList& faults)
   }
 }
 
-bool YamlMap::has(const std::string& key) const {
-  for (const auto& pair : node_)
-    if (pair.first.IsScalar() && pair.first.Scalar() == key) return true;
-  return false;
-}
-
-YAML::Node YamlMap::find(const std::string& key) {
+YAML::Node YamlMap::child(const std::string& key) {
   asked_.insert(key);
   for (const auto& pair : node_)
     if (pair.first.IsScalar() && pair.first.Scalar() == key) return pair.second;
   return YAML::Node(YAML::NodeType::Undefined);
 }
-
-YAML::Node YamlMap::child(const std::string& key) { return find(key); }
 
 double YamlMap::readNumber(const YAML::Node& node, const std::string& name, const Range& range) {
   double value = std::nan("");
@@ -44,7 +36,7 @@ double YamlMap::readNumber(const YAML::Node& node, const std::string& name, cons
 }
 
 double YamlMap::number(const std::string& key, const Range& range, std::optional<double> default_value) {
-  const YAML::Node node = find(key);
+  const YAML::Node node = child(key);
   if (node.IsDefined()) return readNumber(node, name(key), range);
   if (default_value) return *default_value;
   faults_.add(name(key) + " is missing: must be a number, " + range.text() + lineOf(node_));
@@ -54,7 +46,7 @@ double YamlMap::number(const std::string& key, const Range& range, std::optional
 std::vector<double> YamlMap::numbers(const std::string& key, int size) {
   const std::string kind =
       size < 0 ? "a list of finite numbers" : "a list of " + std::to_string(size) + " finite numbers";
-  const YAML::Node node = find(key);
+  const YAML::Node node = child(key);
   if (!node.IsDefined()) {
     faults_.add(name(key) + " is missing: must be " + kind + lineOf(node_));
     return {};
@@ -76,7 +68,7 @@ Vector3 YamlMap::vector(const std::string& key) {
 }
 
 std::string YamlMap::text(const std::string& key, const std::string& default_value) {
-  const YAML::Node node = find(key);
+  const YAML::Node node = child(key);
   if (!node.IsDefined()) return default_value;
   if (node.IsScalar() && !node.Scalar().empty()) return node.Scalar();
   faults_.add(name(key) + ": must be a non-empty text" + lineOf(node));
@@ -88,7 +80,7 @@ void YamlMap::fault(const std::string& message) {
 }
 
 void YamlMap::fault(const std::string& key, const std::string& message) {
-  const YAML::Node node = find(key);
+  const YAML::Node node = child(key);
   faults_.add(name(key) + ": " + message + lineOf(node.IsDefined() ? node : node_));
 }
 

@@ -30,7 +30,7 @@ class YamlMap {
   Vector3 vector(const std::string& key);
   std::string text(const std::string& key, const std::string& default_value);
   YAML::Node child(const std::string& key);  // undefined node when missing
-  bool has(const std::string& key) const;
+  bool has(const std::string& key) { return child(key).IsDefined(); }
 
   // Adds a fault about the mapping itself, or about one of its keys.
   void fault(const std::string& message);
@@ -40,7 +40,6 @@ class YamlMap {
 
  private:
   std::string name(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
-  YAML::Node find(const std::string& key);
   double readNumber(const YAML::Node& node, const std::string& name, const Range& range);
 
   YAML::Node node_;

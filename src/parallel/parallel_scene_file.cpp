@@ -30,8 +30,6 @@ Pose readPlace(YamlMap& rod, const std::string& key, const std::string& path, Fa
     const Vector3 axis = map.vector("axis");
     if (axis.norm() > 0.0) place.R = orientationAlong(axis.normalized());
     else map.fault("axis", "must be a direction from base to platform, not zero");
-  } else {
-    map.child("axis");
   }
   map.finish();
   return place;
@@ -80,7 +78,6 @@ ParallelScene parseParallelScene(const std::string& yaml, const std::string& nam
   readDocument(yaml, faults, [&](YamlMap& map) {
     if (!isOfKind(map, "parallel", "rods between a base and a platform", faults)) return;
     if (map.has("gravity_m_s2")) scene.gravity = map.vector("gravity_m_s2");
-    else map.child("gravity_m_s2");
     const bool has_gravity = scene.gravity.has_value();
     std::optional<CrossSection> shared;
     const YAML::Node section = map.child("rod_section");
@@ -98,7 +95,6 @@ ParallelScene parseParallelScene(const std::string& yaml, const std::string& nam
       YamlMap platform_map(platform, "platform", faults);
       scene.platform_mass = platform_map.number("mass_kg", Range::nonnegative(), 0.0);
       if (platform_map.has("centre_of_mass_m")) scene.platform_centre = platform_map.vector("centre_of_mass_m");
-      else platform_map.child("centre_of_mass_m");
       platform_map.finish();
     }
     map.finish();
