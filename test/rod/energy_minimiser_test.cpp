@@ -25,7 +25,7 @@ TEST(EnergyMinimiser, FindsTheElastica) {
       const ExtrapolatedMinimum minimum = extrapolatedMinimum(rod.scene, {rod.rest}, force, 32);
       const Vector3 expected = elasticaTip(P, beta);
       EXPECT_TRUE(minimum.finest.isStable());
-      EXPECT_LT((minimum.X_BT.p - expected).norm(), minimum.pose_error);
+      EXPECT_LT((minimum.X_BT.p - expected).norm(), 0.1 * minimum.pose_error + 1e-14);
       EXPECT_LT(minimum.pose_error, 5e-8);  // of h^4 where h is 1/64
       // Turning the push turns the shape.
       EXPECT_NEAR(minimum.compliance(1, 1) * force[0] / expected.x(), 1.0, 1e-8);
@@ -82,10 +82,24 @@ TEST(EnergyMinimiser, AgreesWithTheSolverAtShortChains) {
       const ExtrapolatedMinimum minimum =
           extrapolatedMinimum(scene, restStates(scene, pressures, model.options()), force, 16);
       ASSERT_TRUE(solution.status.ok() && minimum.finest.isStable());
-      EXPECT_LT(poseError(solution.X_BT, minimum.X_BT, scene.length()), minimum.pose_error + 1e-9);
-      EXPECT_LT(complianceError(solution.compliance, minimum.compliance, scene.length()), minimum.compliance_error + 1e-9);
+      EXPECT_LT(poseError(solution.X_BT, minimum.X_BT, scene.length()), 0.1 * minimum.pose_error + 1e-9);
+      EXPECT_LT(complianceError(solution.compliance, minimum.compliance, scene.length()),
+                0.1 * minimum.compliance_error + 1e-9);
       EXPECT_LT(minimum.pose_error + minimum.compliance_error, 1e-7);
     }
+}
+
+// Where nothing acts the energy is zero and cannot fall; there is nothing but rounding.
+TEST(EnergyMinimiser, LeavesTheUnloadedRobotWhereItIs) {
+  const Scene scene = weightlessPaperScene(2);
+  const Pressures pressures = RandomSource(8).pairs(12, 0.0, 0.6e5);
+  const StiffnessModel model(scene, accurateTo(1e-12));
+  const StiffnessSolution solution = solveCold(model, pressures);
+  const ExtrapolatedMinimum minimum =
+      extrapolatedMinimum(scene, restStates(scene, pressures, model.options()), Wrench::Zero(), 16);
+  EXPECT_TRUE(minimum.finest.isStable());
+  EXPECT_LT(poseError(solution.X_BT, minimum.X_BT, scene.length()), 1e-9);
+  EXPECT_LT(complianceError(solution.compliance, minimum.compliance, scene.length()), 1e-9);
 }
 
 TEST(EnergyMinimiser, RefusesADeadMoment) {

@@ -58,18 +58,19 @@ NodeRotations ChainEnergy::unloaded() const {
   return R;
 }
 
-double ChainEnergy::value(const NodeRotations& R, double* rounding) const {
+double ChainEnergy::value(const NodeRotations& R, double* uncertainty) const {
   double energy = 0.0, sum = 0.0;
   const auto add = [&](double part) { energy += part, sum += std::abs(part); };
   for (size_t i = 0; i < intervals_.size(); ++i) {
     const Vector3 bent = logSo3(R[i].transpose() * R[i + 1]) - intervals_[i].rest;
     add(0.5 * bent.dot(intervals_[i].stiffness * bent));
+    sum += intervals_[i].stiffness.norm() * (0.01 * bent.norm() + 1e-16);  // of the angle, which is not small itself
   }
   for (const Lever& lever : levers_) {
     const Vector3 N = lever.forceIn(R);
     add(-N.dot(lever.arm + 0.5 * lever.give * N));
   }
-  if (rounding) *rounding = sum;
+  if (uncertainty) *uncertainty = 1e-14 * sum;
   return energy;
 }
 

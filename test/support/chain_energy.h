@@ -42,8 +42,8 @@ class ChainEnergy {
 
   // The robot without external loads.
   NodeRotations unloaded() const;
-  // E, J. rounding: if given, the sum of what E consists of, without signs.
-  double value(const NodeRotations& R, double* rounding = nullptr) const;
+  // E, J. uncertainty: if given, what rounding may have changed, J.
+  double value(const NodeRotations& R, double* uncertainty = nullptr) const;
   EnergyDerivatives derivatives(const NodeRotations& R) const;
   ChainPlacement place(const NodeRotations& R) const;
 

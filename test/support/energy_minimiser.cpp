@@ -70,11 +70,11 @@ EnergyMinimum minimiseEnergy(const Scene& scene, const std::vector<RestState>& r
   at.nodes = start ? *start : energy.unloaded();
   EnergyDerivatives derivatives = energy.derivatives(at.nodes);
   for (int last_steps = 0, pushes = 0; at.iterations < kMostSteps; ++at.iterations) {
-    double size = 0.0;
-    at.energy = energy.value(at.nodes, &size);
+    double uncertainty = 0.0;
+    at.energy = energy.value(at.nodes, &uncertainty);
     NodeVectors step = stepDown(derivatives);
     double share = std::min(1.0, kLongestTurn / largestNorm(step)), slope = dot(step, derivatives.gradient);
-    bool is_visible = -share * slope > 1e-14 * size;
+    bool is_visible = -share * slope > uncertainty;
     if (!is_visible && ++last_steps > kLastSteps) {
       at.least_stiffness = leastStiffness(derivatives);
       if (at.least_stiffness >= -EnergyMinimum::kNeutral || ++pushes > kMostPushes) break;
