@@ -9,19 +9,19 @@
 namespace live_stiffness {
 namespace {
 
-// Smallest eigenvalue of E'' relative to the material's, by bisection: it is where E'' - x material stops being positive.
+// Smallest eigenvalue of E'' relative to the material's, to 2 %: it is where E'' - x material stops being positive.
 double leastStiffness(const EnergyDerivatives& at) {
   const auto is_below = [&](double x) { return BlockCholesky(at.second.plus(-x, at.material)).isPositive(); };
   double low = -1e-9, high = 1e-9, step = 2e-9;
-  while (!is_below(low)) high = low, low -= (step *= 4.0);
-  while (is_below(high)) low = high, high += (step *= 4.0);
-  while (high - low > 1e-4 * std::abs(high + low) + 1e-11) (is_below(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
+  while (!is_below(low)) high = low, low -= (step *= 16.0);
+  while (is_below(high)) low = high, high += (step *= 16.0);
+  while (high - low > 0.02 * std::abs(high + low) + 1e-11) (is_below(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
   return 0.5 * (low + high);
 }
 
 // The way down from a saddle, its largest turn 1 rad: inverse iteration just below that eigenvalue.
 NodeVectors softestTurns(const EnergyDerivatives& at, double least_stiffness) {
-  const BlockCholesky factor(at.second.plus(-least_stiffness + 1e-2 * std::abs(least_stiffness), at.material));
+  const BlockCholesky factor(at.second.plus(-least_stiffness + 0.1 * std::abs(least_stiffness), at.material));
   NodeVectors x(at.gradient.size());
   for (size_t i = 0; i < x.size(); ++i) x[i] = Vector3(1.0 + std::sin(2.0 * i), std::cos(3.0 * i), std::sin(5.0 * i));
   for (int i = 0; i < 20; ++i) {
@@ -62,8 +62,8 @@ EnergyMinimum minimiseEnergy(const Scene& scene, const std::vector<RestState>& r
                              const std::optional<NodeRotations>& start) {
   if (!angular(tip_wrench).isZero(0.0)) throw std::invalid_argument("a dead tip moment has no potential");
   constexpr int kMostSteps = 3000, kMostPushes = 30;
-  constexpr int kLastSteps = 4;           // by which the energy changes less than its rounding: quadratic convergence
-  constexpr double kLongestTurn = 0.5;    // in one step, rad
+  constexpr int kLastSteps = 2;         // by which the energy changes less than its rounding: quadratic convergence
+  constexpr double kLongestTurn = 0.5;  // in one step, rad
   constexpr double kLargestResidual = 1e-8;
   const ChainEnergy energy(scene, rest, linear(tip_wrench), n);
   EnergyMinimum at;

@@ -20,8 +20,8 @@ struct EnergyMinimum {
   int iterations = 0;            // Newton steps
   double energy = 0.0;           // J
   double residual = 0.0;         // largest turn of a section of the weightless robot by what moments are left, rad
-  double least_stiffness = 0.0;  // smallest eigenvalue of E'' relative to the stiffness of the material: 1 without loads,
-                                 // 1 - load / critical load of a straight column, 0 neutral, negative at a saddle
+  double least_stiffness = 0.0;  // smallest eigenvalue of E'' relative to the stiffness of the material, to 2 %: 1 without
+                                 // loads, 1 - load / critical load of a straight column, 0 neutral, negative at a saddle
   Pose X_BT;                     // tip point, m
   Matrix6 compliance = Matrix6::Zero();  // tangent, of T under a dead wrench at T; zero unless stable
   Vector3 base_moment = Vector3::Zero();  // of the robot on the base plate, N m
