@@ -165,7 +165,7 @@ TEST(Catheters, RestWhereTheEnergyIsLeast) {
     }
 }
 
-// The longest stands only because it leans: its pressures differ from side to side.
+// From three segments on they stand only because they lean: their pressures differ from side to side.
 TEST(StandingChains, RestWhereTheEnergyIsLeast) {
   RandomSource random(206);
   for (int count : {1, 2, 3, 4, 5}) {
