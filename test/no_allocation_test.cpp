@@ -127,6 +127,20 @@ TEST_F(NoAllocation, InSolvesThatFail) {
   EXPECT_EQ(g_allocations, 0);
 }
 
+// Through the way downhill, finer elements and the search for the share of the loads that is stable.
+TEST_F(NoAllocation, WhereTheRobotTopplesOrMayLeanInAnyDirection) {
+  Scene standing = paperScene(1);
+  for (int k = 1; k < 8; ++k) standing.chain.push_back(segmentOf(standing, 0));
+  const StiffnessModel chain(standing, {}), column(paperScene(1), {});
+  StiffnessWorkspace of_chain = chain.makeWorkspace(), of_column = column.makeWorkspace();
+  RandomSource random(12);
+  const Pressures uneven = random.pairs(48, 0.0, 5e4), even = Pressures::Constant(6, 1.5e5);
+  const Counting counting;
+  EXPECT_TRUE(chain.solve(uneven, Wrench::Zero(), of_chain).status.ok());
+  EXPECT_EQ(column.solve(even, Wrench::Zero(), of_column).status.code, SolveCode::kUnstable);
+  EXPECT_EQ(g_allocations, 0);
+}
+
 TEST_F(NoAllocation, InAStation) {
   const StiffnessModel model(paperScene(2), {});
   StiffnessWorkspace workspace = model.makeWorkspace();

@@ -75,16 +75,16 @@ class GeneralisedCompliance::Walk {
 
  private:
   bool addPiece(RodElement& piece) {
+    if (!std::isfinite(propagate(kernel_, kColumnGoal, piece))) return false;
     Transfer step;
-    for (bool of_moment : {false, true}) {
-      ElementSensitivities start = {}, end = {};
-      sensitivityMatrix(of_moment ? start.m : start.phi).leftCols<3>().setIdentity();
-      if (!std::isfinite(propagate(kernel_, true, piece, start, kColumnGoal, end))) return false;
-      Eigen::Matrix<double, 9, 6> columns;
-      columns << sensitivityMatrix(end.phi), sensitivityMatrix(end.p), sensitivityMatrix(end.m);
-      step.of_state.middleCols<3>(of_moment ? 6 : 0) = columns.leftCols<3>();
-      step.of_force = columns.rightCols<3>();
-    }
+    const auto columns = [&](int first) {
+      const ElementTransfer& t = piece.state.transfer;
+      return (Eigen::Matrix<double, 9, 3>() << sensitivityMatrix(t.phi, first), sensitivityMatrix(t.p, first),
+              sensitivityMatrix(t.m, first)).finished();
+    };
+    step.of_state.leftCols<3>() = columns(kOfRotation);
+    step.of_state.rightCols<3>() = columns(kOfMoment);
+    step.of_force = columns(kOfForce);
     advance(step);
     return true;
   }

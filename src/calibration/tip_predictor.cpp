@@ -128,8 +128,10 @@ bool TipPredictor::predict(const Eigen::VectorXd& values, const std::vector<Actu
     predictions[i].compliance = options_.external_loads ? solution.compliance : Matrix6(Matrix6::Zero());
     if (!derivatives) continue;
     predictions[i].derivative.resize(6, parameter_count);
-    const Vector3 base_moment = workspace.loaded() ? workspace.statics().baseMoment() : Vector3::Zero();
     const Wrench tip_wrench = options_.external_loads ? samples[i].tip_wrench : Wrench::Zero();
+    const DeadLoads loads{scene.gravity.value_or(Vector3::Zero()), tip_wrench};
+    const Vector3 base_moment =
+        workspace.loaded() ? workspace.statics().baseMoment(loads, workspace.backbone()) : Vector3::Zero();
     for (Differentiator& differentiator : differentiators)
       differentiator.differentiate(i, base_moment, tip_wrench, predictions[i]);
   }

@@ -14,7 +14,7 @@ double accumulateMaterial(const Chain& chain, double accuracy, Backbone& backbon
 }
 
 double solveUnloaded(const Chain& chain, double accuracy, Backbone& backbone, Matrix6& tip_compliance) {
-  SweepResult result;
+  MarchResult result;
   PackedRow tip;
   const double error = backbone.kernel->place_chain(stateOf(chain, DeadLoads(), Vector3::Zero(), backbone), accuracy,
                                                     result, tip);

@@ -104,7 +104,6 @@ SolveStatus StiffnessModel::solveInto(StiffnessSolution& solution, PressuresRef 
     solution.iterations = report.iterations;
     if (!report.converged) return {SolveCode::kNotConverged, -1, report.residual};
     if (!report.stable) return {SolveCode::kUnstable, -1, report.stable_share};
-    solution.buckled = report.buckled;
     solution.numerical_error = report.relativeError() * report.buckling_factor;
     const Chain& chain = state.statics.chain();
     solution.numerical_error += accumulateMaterial(chain, options_.accuracy, backbone, solution.material_compliance);
@@ -151,8 +150,8 @@ std::string StiffnessModel::describe(const SolveStatus& status) const {
     case SolveCode::kNotConverged:
       return "no equilibrium found within the bound on iterations: lower the loads or pressures, or check the scene";
     case SolveCode::kUnstable:
-      return "only an unstable equilibrium was found: the robot would topple under its loads, beyond " + value +
-             " of them; lower its loads or pressures";
+      return "no stable equilibrium: beyond " + value + " of its loads the robot may lean in any direction or has nowhere to "
+             "rest; lower its loads or pressures";
   }
   return "unknown status";
 }

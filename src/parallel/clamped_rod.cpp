@@ -1,11 +1,11 @@
 #include "parallel/clamped_rod.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "compliance/material_compliance.h"
-#include "rod/conjugate_points.h"
 #include "section/section_moments.h"
 
 namespace live_stiffness {
@@ -32,32 +32,7 @@ Matrix6 turned(const Matrix6& M, const Matrix3& R) {
   return result;
 }
 
-// Moves the guess g along with changes of base moment and end force, by the stored sensitivities: see ElementKernel::follow.
-// Works on copies, which the compiler can vectorise.
-void follow(ElementState& e, const double (&change)[6]) {
-  constexpr int kRow = kMaxStages + 1;
-  StageRow turn[3], g[3];
-  double R[9];
-  std::copy_n(e.R_start, 9, R);
-  std::copy_n(&e.g[0][0], 3 * kRow, &g[0][0]);
-  for (int i = 0; i < 3; ++i) {
-    double start = 0.0;
-    for (int k = 0; k < 6; ++k) start += change[k] * e.phi_start[k][i];
-    for (int v = 0; v < kRow; ++v)
-      turn[i][v] = change[0] * e.phi[0][i][v] + change[1] * e.phi[1][i][v] + change[2] * e.phi[2][i][v] +
-                   change[3] * e.phi[3][i][v] + change[4] * e.phi[4][i][v] + change[5] * e.phi[5][i][v] - start;
-  }
-  for (int v = 0; v < kRow; ++v) {
-    const double x = R[0] * turn[0][v] + R[3] * turn[1][v] + R[6] * turn[2][v];
-    const double y = R[1] * turn[0][v] + R[4] * turn[1][v] + R[7] * turn[2][v];
-    const double z = R[2] * turn[0][v] + R[5] * turn[1][v] + R[8] * turn[2][v];
-    const double gx = g[0][v], gy = g[1][v], gz = g[2][v], half = 0.5 * (gx * x + gy * y + gz * z);
-    g[0][v] = gx + x - 0.5 * (gy * z - gz * y - half * gx);
-    g[1][v] = gy + y - 0.5 * (gz * x - gx * z - half * gy);
-    g[2][v] = gz + z - 0.5 * (gx * y - gy * x - half * gz);
-  }
-  std::copy_n(&g[0][0], 3 * kRow, &e.g[0][0]);
-}
+using Columns = Eigen::Map<const Eigen::Matrix<double, 3, kColumns>>;
 
 }  // namespace
 
@@ -88,8 +63,19 @@ void ClampedRod::setLength(double length) {
 void ClampedRod::changeLoad(const Vector6& change) {
   load_ += change;
   if (!has_sensitivities_) return;
-  const double by[6] = {change[3], change[4], change[5], change[0], change[1], change[2]};  // columns: moment first
-  for (RodElement& element : backbone_.elements) follow(element.state, by);
+  Eigen::Matrix<double, kColumns, 1> start = Eigen::Matrix<double, kColumns, 1>::Zero();
+  start.segment<3>(kOfMoment) = change.tail<3>();
+  start.segment<3>(kOfForce) = change.head<3>();
+  for (RodElement& element : backbone_.elements) {
+    double by[kColumns];
+    std::copy_n(start.data(), kColumns, by);
+    backbone_.kernel->follow(element.state, by);
+    if (&element == &backbone_.elements.back()) break;
+    const int used = &element == &backbone_.elements.front() ? kOfRotation : kColumns;
+    const Vector3 phi = Columns(element.state.transfer.phi[0]).leftCols(used) * start.head(used);
+    start.segment<3>(kOfMoment) = Columns(element.state.transfer.m[0]).leftCols(used) * start.head(used);
+    start.segment<3>(kOfRotation) = phi;
+  }
 }
 
 void ClampedRod::placeStraight() {
@@ -97,11 +83,10 @@ void ClampedRod::placeStraight() {
   nodes_hold_guess_ = has_sensitivities_ = false;
 }
 
-Sweep ClampedRod::sweepOnce() {
-  // The end is known only after SweepMode::kFinish.
-  const SweepMode mode = nodes_hold_guess_ ? SweepMode::kFinish : SweepMode::kCold;
-  const Sweep result = sweep(chain_, loads(), load_.tail<3>(), mode, backbone_);
-  end_moment_ = result.residual;
+MarchResult ClampedRod::iterateOnce() {
+  const MarchMode mode = nodes_hold_guess_ ? MarchMode::kIterate : MarchMode::kCold;
+  const MarchResult result = march(chain_, loads(), load_.tail<3>(), mode, backbone_);
+  end_moment_ = Vector3(result.residual);
   nodes_hold_guess_ = result.is_admissible;
   return result;
 }
@@ -113,12 +98,25 @@ bool ClampedRod::integrate() {
 }
 
 double ClampedRod::linearise(double goal) {
-  ElementSensitivities tip;
-  const double left = tipSensitivities(chain_, loads(), !has_sensitivities_, goal, backbone_, tip);
+  const ChainState chain = stateOf(chain_, loads(), load_.tail<3>(), backbone_);
+  const auto [left, unstable] = backbone_.kernel->linearise(chain, {4.0 * goal, !has_sensitivities_, true, false, true});
   has_sensitivities_ = std::isfinite(left);
   if (!has_sensitivities_) return left;
-  truncation_ = discretisation_.truncation(1.0, backbone_);
-  const auto phi = sensitivityMatrix(tip.phi), p = sensitivityMatrix(tip.p), m = sensitivityMatrix(tip.m);
+  unstable_ = unstable;
+  truncation_ = discretisation_.truncation(backbone_);
+  // From base to end, by base moment and force.
+  Eigen::Matrix<double, kColumns, 6> start = Eigen::Matrix<double, kColumns, 6>::Zero();
+  start.topRows<6>().setIdentity();
+  Matrix3X6 phi, p = Matrix3X6::Zero(), m;
+  for (const RodElement& element : backbone_.elements) {
+    const int used = &element == &backbone_.elements.front() ? kOfRotation : kColumns;
+    const ElementTransfer& t = element.state.transfer;
+    phi.noalias() = Columns(t.phi[0]).leftCols(used) * start.topRows(used);
+    p.noalias() += Columns(t.p[0]).leftCols(used) * start.topRows(used);
+    m.noalias() = Columns(t.m[0]).leftCols(used) * start.topRows(used);
+    start.topRows<3>() = m;
+    start.bottomRows<3>() = phi;
+  }
   // Derivative of the end pose by the load, in units that make all entries similar: L for lengths, 1 rad of bending for moments.
   const double L = length(), moment = 1.0 / (bending_compliance_ * L), force = moment / L;
   Matrix6 end_of_load;
@@ -161,6 +159,7 @@ bool ClampedRod::choose() {
   DeadLoads now = loads();
   angular(now.tip) = Vector3::UnitX() * std::max(load_.tail<3>().norm(), end_moment_.norm());
   if (!discretisation_.choose(now, backbone_)) return false;
+  discretisation_.apply(backbone_);
   nodes_hold_guess_ = has_sensitivities_ = false;
   prepare(chain_, loads(), backbone_);
   return true;
@@ -172,8 +171,8 @@ bool ClampedRod::refine(double buckling_factor) {
   const int stages = backbone_.kernel->stages, count = backbone_.element_count[0];
   const double growth = std::min(2.0, std::pow(2.0 * excess, 0.5 / stages));  // the error is of order 2 stages
   const int wanted = std::max(count + 1, static_cast<int>(std::ceil(count * growth)));
-  backbone_.element_count[0] = std::min(Backbone::kMaxElements, wanted);
-  if (!backbone_.resize(stages)) return false;
+  if (count == Backbone::kMaxElements) return false;
+  backbone_.resize({std::min(Backbone::kMaxElements, wanted)}, stages);
   nodes_hold_guess_ = has_sensitivities_ = false;
   prepare(chain_, loads(), backbone_);
   return true;
@@ -203,11 +202,12 @@ double ClampedRod::bendingOf(const Vector6& load) const {
   return bending_compliance_ * length() * std::max(length() * load.head<3>().norm(), load.tail<3>().norm());
 }
 
-// For rotations phi(s) with phi = 0 at both ends, and a free position of the end, the second variation has as many negative
-// directions as there are conjugate points (see rod/conjugate_points.h). Clamping the position as well removes as many of
-// them as the compliance of that position, with clamped rotation, has negative eigenvalues.
+// Clamping the position of an end that cannot turn removes as many directions in which the rod is not stable as the
+// compliance of that position, with clamped rotation, has negative eigenvalues.
 bool ClampedRod::isStableClamped() const {
-  return conjugatePoints(backbone_) == negativeEigenvalues(stiffness_.topLeftCorner<3, 3>());
+  Eigen::SelfAdjointEigenSolver<Matrix3> eigen;
+  eigen.computeDirect(stiffness_.topLeftCorner<3, 3>(), Eigen::EigenvaluesOnly);
+  return unstable_ == 3 - (eigen.eigenvalues().array() > 0.0).count();
 }
 
 }  // namespace live_stiffness

@@ -26,7 +26,7 @@ class ClampedRod {
   // Forgets shape and load: straight, with the same number of elements.
   void placeStraight();
   // One iteration of every element; `change` of the result is that of the Cayley vectors, rad.
-  Sweep sweepOnce();
+  MarchResult iterateOnce();
   // Iterates until the shape under the load has converged. False if it does not.
   bool integrate();
   // Computes what the matrices below need, for the shape of the last iteration: sensitivities to the relative error `goal`.
@@ -77,6 +77,7 @@ class ClampedRod {
   Vector6 load_ = Vector6::Zero();
   Vector3 end_moment_ = Vector3::Zero();  // N m, axes of the rod's base
   bool nodes_hold_guess_ = false, has_sensitivities_ = false;
+  int unstable_ = 0;  // LinearisationResult::unstable
   double truncation_ = 0.0;
   Matrix6 load_of_twist_ = Matrix6::Zero(), stiffness_ = Matrix6::Zero();
   Twist twist_of_length_ = Twist::Zero();

@@ -74,9 +74,9 @@ bool RodCoupling::refineAllForLoad() {
 double RodCoupling::sweepAll() {
   double change = 0.0;
   for (ClampedRod& rod : rods_) {
-    const Sweep sweep = rod.sweepOnce();
-    if (!sweep.is_admissible) return kInfinity;
-    change = std::max(change, sweep.change);
+    const MarchResult march = rod.iterateOnce();
+    if (!march.is_admissible) return kInfinity;
+    change = std::max(change, march.change);
   }
   return change;
 }

@@ -16,23 +16,13 @@ int Backbone::firstElement(int segment) const {
   return std::accumulate(element_count.begin(), element_count.begin() + segment, 0);
 }
 
-bool Backbone::resize(int stages) {
-  const size_t count = std::accumulate(element_count.begin(), element_count.end(), size_t{0});
-  bool changed = count != elements.size() || stages != kernel->stages;
-  if (!changed) {
-    // The total may be the same although single segments have other numbers.
-    size_t next = 0;
-    for (size_t segment = 0; segment < element_count.size(); ++segment)
-      for (int k = 0; k < element_count[segment]; ++k)
-        changed = changed || elements[next++].state.segment != static_cast<int>(segment);
-  }
-  if (!changed) return false;
-  elements.resize(count);
+void Backbone::resize(const std::vector<int>& count, int stages) {
+  element_count = count;
+  elements.resize(std::accumulate(count.begin(), count.end(), size_t{0}));
   size_t next = 0;
-  for (size_t segment = 0; segment < element_count.size(); ++segment)
-    for (int k = 0; k < element_count[segment]; ++k) elements[next++].state.segment = static_cast<int>(segment);
+  for (size_t segment = 0; segment < count.size(); ++segment)
+    for (int k = 0; k < count[segment]; ++k) elements[next++].state.segment = static_cast<int>(segment);
   kernel = &elementKernel(stages, simd_);
-  return true;
 }
 
 void Backbone::setTip(const double (&R)[9], const double (&p)[3]) {

@@ -16,7 +16,7 @@ struct Backbone {
   std::vector<RodElement> elements;    // base to tip, element_count[k] of segment k; inside `capacity`
   Pose X_BT;                           // tip point
 
-  static constexpr int kMaxElements = 64;  // per segment
+  static constexpr int kMaxElements = 512;  // per segment
   explicit Backbone(const Scene& scene, Simd simd = Simd::kBest);
 
   Simd simd() const { return simd_; }
@@ -24,9 +24,8 @@ struct Backbone {
   int firstElement(int segment) const;
   // Stretched length of a segment, m.
   double length(int segment) const { return element_count[segment] * elements[firstElement(segment)].state.length; }
-  // Makes element_count elements with this number of stages. True if that changed anything: nodes and sensitivities then
-  // hold no guess.
-  bool resize(int stages);
+  // Makes these elements of each segment, with this number of stages. They hold no guess.
+  void resize(const std::vector<int>& count, int stages);
   // X_BT from numbers, R row-major.
   void setTip(const double (&R)[9], const double (&p)[3]);
 

@@ -25,20 +25,42 @@ struct ChainState {
   double tip_moment[3];      // dead, at T, N m
 };
 
-// Result of one iteration over all elements, from base to tip.
-struct SweepResult {
-  double R_tip[9], p_tip[3];  // of T; not after SweepMode::kOnce
-  double residual[3];         // moment at T that no load balances, N m, base axes
-  double change;              // largest change of an element
-  bool is_admissible;                 // finite, and no element bent too far
+// Result of one fixed-point iteration of every element from its own start.
+struct IterationResult {
+  double change;       // largest of the Cayley vectors of an element, rad
+  double turn;         // largest gap of rotation at a joint, rad
+  double moment;       // largest of moment at a joint or at T, N m
+  double lacking[3];   // moment at T: the load less what the shape gives, N m, base axes
+  bool is_admissible;  // finite, and no element bent too far
 };
 
-enum class SweepMode {
-  kOnce,      // one fixed-point iteration of each element
-  kShape,     // no iteration: evaluates the shape of the guess, and its end
-  kFinish,    // kOnce, then kShape
+enum class MarchMode {
+  kShape,     // no iteration: evaluates the shape of the guess
+  kClose,     // the same, but with the moment at its start that every element has
+  kIterate,   // one fixed-point iteration of each element, then kShape
   kCold,      // integrates every element without a guess
   kUnloaded,  // sets every element to its shape without loads, as a guess
+};
+
+// Result of a walk from base to tip in which every element starts where the one before ends.
+struct MarchResult {
+  double R_tip[9], p_tip[3];  // of T
+  double residual[3];         // moment at T that no load balances, N m, base axes
+  double gap;                 // largest of the residual and of gaps of moment at joints (kClose), N m
+  double change;              // largest change of an element, rad
+  bool is_admissible;         // finite, and no element bent too far
+};
+
+struct Linearisation {
+  double goal;        // relative error of the sensitivities at which iterations stop
+  bool cold;          // without a guess
+  bool with_force;    // also those by a force, for tangent()
+  bool with_adjoint;  // also the adjoint-weighted residual, with which the error of the compliance is of order goal squared
+  bool clamped;       // T cannot turn
+};
+struct LinearisationResult {
+  double left;   // largest relative error of the sensitivities of an element; infinity if one did not converge
+  int unstable;  // in how many directions the energy does not grow; 0 if the equilibrium is stable
 };
 
 }  // namespace live_stiffness

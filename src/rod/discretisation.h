@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "rod/backbone.h"
+#include "rod/nodal_rotations.h"
 
 namespace live_stiffness {
 
@@ -12,22 +12,24 @@ class Discretisation {
   // accuracy: relative, of pose and compliance. stages: of every element; 0: whatever is cheapest.
   Discretisation(const Chain& chain, double accuracy, int stages);
 
-  // Chooses stages and elements for the rest states in the backbone, and loads if any act. True if that changed
-  // anything: the backbone then holds no guess.
-  bool choose(const DeadLoads& loads, Backbone& backbone);
-  bool chooseUnloaded(Backbone& backbone);
+  // Chooses stages and elements for the rest states in the backbone, and loads if any act. True if the backbone has others:
+  // then apply() gives it these. Its elements then hold no guess.
+  bool choose(const DeadLoads& loads, const Backbone& backbone);
+  // The same for a shape that may bend more than the loads let expect. Call choose() before.
+  bool chooseFor(const NodalRotations& shape, const Backbone& backbone);
+  bool chooseUnloaded(const Backbone& backbone);
+  void apply(Backbone& backbone) const { backbone.resize(count_, stages_); }
 
   // Makes choose() limit the bending of an element further, for more reliable convergence.
   void shorten() { most_ = kShort; }
 
-  // Estimated relative error of a converged shape and its sensitivities. cancellation: the size of the sensitivities divided
-  // by that of the compliance, which is computed as their difference.
-  double truncation(double cancellation, const Backbone& backbone);
+  // Estimated relative error of a converged shape and its sensitivities.
+  double truncation(const Backbone& backbone) const;
 
   // Refines a segment (more stages or elements) if its estimated error times `buckling_factor`, the buckling factor of
-  // StaticsReport, is above the accuracy and above `tolerated`, or if its elements bend too far for one Cayley vector. False
-  // if nothing had to, or could, be refined.
-  bool refine(double buckling_factor, Backbone& backbone, double tolerated = 0.0);
+  // StaticsReport, is above the accuracy, or if its elements bend too far for one Cayley vector. False if nothing had to, or
+  // could, be refined; else call apply().
+  bool refine(double buckling_factor, const Backbone& backbone);
 
   // Undoes the effect of refine() and shorten().
   void reset() {
@@ -38,7 +40,8 @@ class Discretisation {
  private:
   static constexpr double kLong = 1.8, kShort = 1.5;  // rad an element
 
-  bool chooseForDemand(Backbone& backbone);
+  bool chooseForDemand(const Backbone& backbone);
+  bool differs(const Backbone& backbone) const;
   double demandOf(size_t segment) const { return demand_[segment] * safety_factor_[segment]; }
 
   const Chain& chain_;
@@ -52,7 +55,8 @@ class Discretisation {
   double bendingOf(const Choice& choice) const { return std::min(most_, choice.bending); }
   std::vector<Choice> choices_;
   std::vector<double> demand_;   // bending of each segment that decides its number of elements, rad; without safety_factor_
-  double cancellation_ = 1.0;    // last argument of truncation()
+  std::vector<int> count_;       // chosen, of each segment
+  int stages_ = kMaxStages;      // chosen
   std::vector<double> safety_factor_;  // safety factor on each demand, from refine()
   std::vector<double> seen_safety_factor_;  // safety factors that the last solution would have needed
   int hysteresis_count_ = 1;                  // solves until smaller safety factors are tried

@@ -2,8 +2,8 @@
 // All that is done to elements and chains, for one instruction set.
 
 #include "rod/chain_code.h"
+#include "rod/chain_compliance_code.h"
 #include "rod/element_kernel_tables.h"
-#include "rod/tangent_code.h"
 
 namespace live_stiffness {
 namespace {
@@ -13,10 +13,11 @@ constexpr ElementKernel kernelOf() {
   using S = Shape<kStages>;
   using C = Sensitivities<kStages>;
   using M = MaterialChoice<kStages>;
-  using All = ChainKernel<kStages>;
-  return {kStages,   S::resetGuess, S::predict,  S::iterate, S::integrate,    S::placeUnloaded,
-          S::follow, C::propagate,  M::material, All::addCompliance, M::stations, All::sweep,      All::followAll,
-          All::columns, tangent, All::accumulate, All::placeChain};
+  using Chain = ChainKernel<kStages>;
+  using Compliance = ChainCompliance<kStages>;
+  return {kStages,         S::resetGuess,   S::predict,   S::iterate, S::integrate, S::placeUnloaded, S::follow, C::propagate,
+          M::material,     Compliance::addCompliance, M::stations, Chain::iterate, Chain::evaluate, Chain::correct,
+          Chain::march,    Chain::linearise, Joints::tangent, Compliance::accumulate, Compliance::placeChain};
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 // with n, m the external loads only.
 
 #include "rod/element_kernel.h"
-#include "rod/packs.h"
+#include "rod/matrix3_code.h"
 
 namespace live_stiffness {
 namespace {
@@ -66,13 +66,6 @@ LIVE_STIFFNESS_INLINE Lanes3 cayleyOfRotation(Lanes3 w) {
   const Pack x = dot(w, w);
   return (2.0 * series(kSine, x) / (2.0 - x * series(kCosine, x))) * w;
 }
-template <int n>
-LIVE_STIFFNESS_INLINE double squaredNorm(const double (&a)[n]) {
-  double sum = a[0] * a[0];
-  for (int i = 1; i < n; ++i) sum += a[i] * a[i];
-  return sum;
-}
-LIVE_STIFFNESS_INLINE double largerOf(double a, double b) { return a > b ? a : b; }
 // Smallest ratio of a Legendre coefficient to the one before that the error estimate assumes.
 constexpr double kDecay = 0.05;
 

@@ -1,6 +1,6 @@
 #pragma once
 // Shape of one element:
-//   p' = R v,  R' = R hat(u),  n' = -w - R f,  m' = -p' x n                                    (8)
+//   p' = R v,  R' = R hat(u),  n' = -w,  m' = -p' x n                                    (8)
 // collocated at the Gauss nodes; one lane is one node, the last one the end.
 
 #include "rod/element_collocation_code.h"
@@ -32,18 +32,11 @@ struct Shape : Collocation<kStages> {
     rotateBack(e.R_start, e.line_load, line_load);
     const double reach[3] = {e.length * line_load[0], e.length * line_load[1], e.length * line_load[2]};
     Sections all;
-    Rows follower{};
-    for (int v = 0; v < kVectors; ++v) all.at[v].R = cayley(load(e.g, v));
-    if (e.follows) {
-      StageRow f[3];
-      for (int v = 0; v < kVectors; ++v) store(f, v, all.at[v].R * splat(e.follower_load));
-      follower = integral(t, f);
-    }
     StageRow m_rate[3];
     for (int v = 0; v < kVectors; ++v) {
       Section& section = all.at[v];
+      section.R = cayley(load(e.g, v));
       section.n = splat(n_start) - load(t.c, v) * splat(reach);
-      if (e.follows) section.n = section.n - h * follower.at[v];
       section.tangent = tangentOf(e, section.R.z, section.n);
       store(m_rate, v, cross(section.n, section.tangent));
     }
@@ -158,22 +151,27 @@ struct Shape : Collocation<kStages> {
       }
   }
 
-  static void predict(ElementState& e, const double (&turn)[3], double extrapolation, bool with_sensitivities) {
+  static void predict(ElementState& e, const double (&turn)[3], double extrapolation, int columns) {
     extrapolate(extrapolation, e.g, e.g_before);
     for (int i = 0; i < 3; ++i) {
       const double more = extrapolation != 0.0 ? turn[i] - extrapolation * e.turn[i] : turn[i];
       for (int v = 0; v < kVectors; ++v) store(e.g[i], v, load(e.g[i], v) + more * load(table().c, v));
       e.turn[i] = turn[i];
+      const double m = e.m_start[i];
+      e.m_start[i] += extrapolation * (m - e.m_before[i]);
+      e.m_before[i] = m;
     }
-    if (!with_sensitivities) return;
-    for (int k = 0; k < 6; ++k) {
+    double R[9], further[3];
+    copy(e.R_start, R);
+    if (extrapolation != 0.0) {
+      turnBetween(e.R_before, R, further);
+      for (double& x : further) x *= extrapolation;
+      turnBy(further, e.R_start);
+    }
+    copy(R, e.R_before);
+    for (int k = 0; k < columns; ++k) {
       extrapolate(extrapolation, e.phi[k], e.phi_before[k]);
       extrapolate(extrapolation, e.phi_rate[k], e.phi_rate_before[k]);
-      for (int i = 0; i < 3; ++i) {  // start of phi; propagate() later adds the difference
-        const double x = e.phi_start[k][i];
-        if (extrapolation != 0.0) e.phi_start[k][i] = x + extrapolation * (x - e.phi_start_before[k][i]);
-        e.phi_start_before[k][i] = x;
-      }
     }
   }
 
@@ -218,15 +216,15 @@ struct Shape : Collocation<kStages> {
     }
     e.change = e.truncation = e.interior_error = 0.0;
   }
+
   // A rotation phi of a section in base axes, R -> exp(hat(phi)) R, changes g at the rate phi - g x phi / 2 + g (g . phi) / 4.
-  static void follow(ElementState& e, const double (&change)[3]) {
-    double turn_start[3] = {};
-    for (int k = 0; k < 3; ++k)
-      for (int i = 0; i < 3; ++i) turn_start[i] += change[k] * e.phi_start[k][i];
+  static void follow(ElementState& e, const double (&change)[kColumns]) {
     const PackMatrix R_start = splatMatrix(e.R_start);
+    const double own[3] = {change[kOfRotation], change[kOfRotation + 1], change[kOfRotation + 2]};
     for (int v = 0; v < kVectors; ++v) {
-      Lanes3 turn = Lanes3{} - splat(turn_start);
-      for (int k = 0; k < 3; ++k) turn = turn + splat(change[k]) * load(e.phi[k], v);
+      Lanes3 turn = Lanes3{} - splat(own);
+      for (int k = 0; k < kColumns; ++k)
+        if (change[k] != 0.0) turn = turn + splat(change[k]) * load(e.phi[k], v);
       const Lanes3 g = load(e.g, v), phi = transposedTimes(R_start, turn);
       store(e.g, v, g + phi - splat(0.5) * (cross(g, phi) - (0.5 * dot(g, phi)) * g));
     }

@@ -20,6 +20,21 @@ typedef double PackedRow[kPackedRow] __attribute__((aligned(32)));
 // rest is not used.
 constexpr int kDenseTangent = kPackedSize, kDenseRate = kDenseTangent + 3, kDenseRow = 28;
 
+// Sensitivities of an element: derivatives of its sections' state by the moment and the rotation of its start and by a dead
+// force at its end, in groups of three columns. A rotation turns the moment with the section, so that the robot as a whole
+// turns about its load exactly.
+constexpr int kOfMoment = 0, kOfForce = 3, kOfRotation = 6, kColumns = 9;
+
+// Derivatives at the end: rotation phi (rad, R changes by hat(phi) R), position relative to the start, and moment: relative to
+// the turned section (mu of docs/derivation.md), of the last element of a chain and of single elements in base axes. The first
+// index is the column.
+struct ElementTransfer {
+  double phi[kColumns][3], p[kColumns][3], m[kColumns][3];
+  // [i][j]: the work of the moment of column i on the turning that column j still misses (adjoint-weighted residual). It
+  // corrects the compliance to second order in the columns' error.
+  double adjoint_residual[kColumns][kColumns];
+};
+
 struct ElementState {
   // Where it is.
   int segment;                                // index of the segment it is part of
@@ -27,13 +42,11 @@ struct ElementState {
   double p_start[3];                          // position of its first section in B, m
 
   // Set by the caller.
-  double length;                              // stretched, m; negative: from tip towards base
+  double length;                              // stretched, m
   double R_start[9];                          // orientation of its first section
   double n_start[3];                          // N, external loads of everything beyond
   double m_start[3];                          // N m
   double line_load[3];                        // w, N/m
-  double follower_load[3];                    // f, N/m, body axes
-  bool follows;                               // follower_load is not zero
   double shear, elongation;                   // c_se = diag(shear, shear, elongation), 1/N
   double bend_xx, bend_xy, bend_yy, torsion;  // c_bt, 1/(N m^2)
   double rest_curvature[3];                   // u_rest, 1/m, body axes
@@ -58,15 +71,23 @@ struct ElementState {
   StageRow bend[6], m_of_phi[9], p_of_phi[9];
   double stretch[6];  // integral of S = R c_se R^T, symmetric
 
-  // Columns at the nodes and the end, and rotation at the start; kept as guess for the next solve.
-  StageRow phi[6][3], dm[6][3];
-  StageRow phi_rate[6][3];  // what phi is the integral of
-  double phi_start[6][3];
-  // Of the solution before: what predict() goes on from.
-  double turn[3];  // of the rest curvature from there to here, rad
-  StageRow g_before[3], phi_before[6][3], phi_rate_before[6][3];
-  double phi_start_before[6][3];
+  // Sensitivities at the nodes and the end; kept as guess for the next solve. And what phi is the integral of.
+  StageRow phi[kColumns][3], dm[kColumns][3], phi_rate[kColumns][3];
+  ElementTransfer transfer;       // at the start of the next element: across the rigid links, and the offset of T
   double sensitivity_truncation;  // square of the highest Legendre coefficient of their rate, as it turns the end, relative
+
+  // Of the solution before, what predict() goes on from.
+  double turn[3];  // of the rest curvature from there to here, rad
+  double R_before[9], m_before[3];
+  StageRow g_before[3], phi_before[kColumns][3], phi_rate_before[kColumns][3];
+
+  // Joint at the element's start, docs/derivation.md, section 4: what the end before it and its own start differ by, as a
+  // Cayley vector and a moment (N m); and the factors of the last factorise().
+  double gap_turn[3], gap_moment[3];  // of the first element nothing
+  double stiffness[9];  // S: the moment at the start, by a rotation of it, of everything from here to T
+  double pivot_inverse[9];
+  double step_moment[3], step_turn[3];  // of the start, in the last Newton step
+  double by_wrench[3][8] __attribute__((aligned(32)));  // moment at the start by a unit wrench at T, the start held
 
   // Plane of an arc: curvature (1/m) and its square, axis in the axes of its start, and in those of B its first direction
   // across, its axis and its first tangent. Set by placeArc().
@@ -84,21 +105,6 @@ struct ElementState {
 
   // Material compliance of everything before the element's start and end, about these. Set by accumulate().
   PackedRow start_compliance, end_compliance;
-};
-
-// Which columns are found.
-enum class SensitivitySet {
-  kBaseMoment,  // the first three; the others are nothing
-  kAll,
-};
-
-// Derivatives of a section's state with respect to [base moment, tip force]: rotation phi (rad, R changes by
-// hat(phi) R), position and moment. The first index is the column.
-struct ElementSensitivities {
-  double phi[6][3], p[6][3], m[6][3];
-  // What the columns' own error does, so far along the chain: [i][j] is the work of the moment of column i on the
-  // turning that column j still misses. It corrects the compliance to second order in that error, see StaticsSolver.
-  double adjoint_residual[6][6];
 };
 
 // Sections inside one element, a batch at a time.

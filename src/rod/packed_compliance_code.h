@@ -1,18 +1,10 @@
 #pragma once
 // Symmetric 6x6 compliances in 21 numbers (see kPackedSize), of one section or of one section in each lane.
 
-#include "rod/packs.h"
+#include "rod/matrix3_code.h"
 
 namespace live_stiffness {
 namespace {
-
-// Cross product of numbers or of lanes.
-template <class T>
-LIVE_STIFFNESS_INLINE void crossInto(const T (&d)[3], T x, T y, T z, T (&out)[3]) {
-  out[0] = d[1] * z - d[2] * y;
-  out[1] = d[2] * x - d[0] * z;
-  out[2] = d[0] * y - d[1] * x;
-}
 
 // About the point o becomes about o + d: H C H^T with H = [I, -hat(d); 0, I], so that K -> K - hat(d) W and
 // P -> P - hat(d) K^T + K_new hat(d).

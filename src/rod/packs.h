@@ -163,14 +163,6 @@ LIVE_STIFFNESS_INLINE void storeSymmetric(double (*rows)[n], int v, const PackMa
   store(rows[3], v, M.y.y), store(rows[4], v, M.z.y), store(rows[5], v, M.z.z);
 }
 
-// Single 3-vectors, R row-major: out = R a, R^T a.
-LIVE_STIFFNESS_INLINE void rotate(const double (&R)[9], const double (&a)[3], double (&out)[3]) {
-  for (int i = 0; i < 3; ++i) out[i] = R[3 * i] * a[0] + R[3 * i + 1] * a[1] + R[3 * i + 2] * a[2];
-}
-LIVE_STIFFNESS_INLINE void rotateBack(const double (&R)[9], const double (&a)[3], double (&out)[3]) {
-  for (int i = 0; i < 3; ++i) out[i] = R[i] * a[0] + R[3 + i] * a[1] + R[6 + i] * a[2];
-}
-
 // Rotation matrix of the Cayley vector g = 2 tan(angle / 2) axis: I + (hat(g) + hat(g)^2 / 2) 4 / (4 + |g|^2).
 LIVE_STIFFNESS_INLINE PackMatrix cayley(Lanes3 g) {
   const Pack k = 2.0 / (4.0 + dot(g, g));

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "live_stiffness/lie/so3.h"
+
 namespace live_stiffness {
 namespace {
 
@@ -30,11 +32,7 @@ void RodElement::setSection(const RestState& rest) {
   vectorOf(state.rest_curvature) = rest.curvature;
 }
 
-void RodElement::setLoads(const Vector3& line_load, const Vector3& follower_load) {
-  vectorOf(state.line_load) = line_load;
-  vectorOf(state.follower_load) = follower_load;
-  state.follows = !follower_load.isZero(0.0);
-}
+void RodElement::setLoad(const Vector3& line_load) { vectorOf(state.line_load) = line_load; }
 
 Pose RodElement::X_start() const { return {matrixOf(state.R_start), p_start()}; }
 
@@ -59,9 +57,13 @@ bool integrate(const ElementKernel& kernel, bool cold, RodElement& element) {
   return kernel.integrate(element.state);
 }
 
-double propagate(const ElementKernel& kernel, bool cold, RodElement& element, const ElementSensitivities& start, double goal,
-                 ElementSensitivities& end) {
-  return kernel.propagate(element.state, cold, start, SensitivitySet::kAll, goal, false, end);
+double propagate(const ElementKernel& kernel, double goal, RodElement& element) {
+  const double left = kernel.propagate(element.state, true, true, true, goal, false);
+  // The moment does not turn with the section.
+  ElementTransfer& t = element.state.transfer;
+  const Matrix3 turned = -hat(Vector3(element.state.m_start));
+  for (auto part : {t.phi, t.p, t.m}) Eigen::Map<Matrix3>(part[kOfRotation]) -= sensitivityMatrix(part, kOfMoment) * turned;
+  return left;
 }
 
 }  // namespace live_stiffness

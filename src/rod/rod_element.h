@@ -17,8 +17,8 @@ struct RodElement {
   // Start values: pose of the first section in B; external force and moment there, N and N m, base axes.
   void setStart(const Pose& X, const Vector3& n, const Vector3& m);
   void setSection(const RestState& rest);
-  // Dead load w per stretched length, base axes, and load f that follows the section, body axes; N/m.
-  void setLoads(const Vector3& line_load, const Vector3& follower_load = Vector3::Zero());
+  // Dead load w per stretched length, N/m, base axes.
+  void setLoad(const Vector3& line_load);
 
   Vector3 p_start() const { return Vector3(state.p_start); }
   Pose X_start() const;
@@ -36,13 +36,10 @@ static_assert(sizeof(RodElement) == sizeof(ElementState), "RodElement holds noth
 // stages. Returns false if the iterations do not converge: the element is too long for its load or curvature.
 bool integrate(const ElementKernel& kernel, bool cold, RodElement& element);
 
-// Carries columns from the start to the end of an integrated element, by iterations until they change by less than `goal`,
-// relative, from the guess that it holds or cold:
-//   phi' = R c_bt R^T (dm - phi x m),  dp' = phi x p' + R c_se R^T (dn - phi x n),  dm' = -dp' x n - p' x dn,
-// dn the unit force of columns 3 to 5. Dead loads only. Returns what is estimated to be left, relative; infinity
-// without convergence.
-double propagate(const ElementKernel& kernel, bool cold, RodElement& element, const ElementSensitivities& start, double goal,
-                 ElementSensitivities& end);
+// Sensitivities of an integrated element, ElementState::transfer, by iterations until they change by less than `goal`, relative:
+//   phi' = R c_bt R^T (dm - phi x m),  dp' = phi x p' + R c_se R^T (dn - phi x n),  dm' = -dp' x n - p' x dn.
+// Returns what is estimated to be left, relative; infinity without convergence.
+double propagate(const ElementKernel& kernel, double goal, RodElement& element);
 
 // The 21 numbers of element_state.h as a 6x6 matrix; same point, axes and units.
 inline void unpack(const PackedRow& compliance, Matrix6& C) {
@@ -55,10 +52,9 @@ inline void unpack(const PackedRow& compliance, Matrix6& C) {
     for (int i = 0; i < 6; ++i) C(i, j) = compliance[kIndex[i][j]];
 }
 
-// One part (phi, p or m) of columns as a 3x6 matrix.
-inline Eigen::Map<Matrix3X6> sensitivityMatrix(double (&part)[6][3]) { return Eigen::Map<Matrix3X6>(&part[0][0]); }
-inline Eigen::Map<const Matrix3X6> sensitivityMatrix(const double (&part)[6][3]) {
-  return Eigen::Map<const Matrix3X6>(&part[0][0]);
+// One part (phi, p or m) of three columns of a transfer as a 3x3 matrix; first: kOfMoment, kOfForce or kOfRotation.
+inline Eigen::Map<const Matrix3> sensitivityMatrix(const double (*part)[3], int first) {
+  return Eigen::Map<const Matrix3>(part[first]);
 }
 
 }  // namespace live_stiffness

@@ -52,7 +52,7 @@ double extrapolationOf(const Chain& chain, const Backbone& backbone) {
 
 }  // namespace
 
-double prepare(const Chain& chain, const DeadLoads& loads, Backbone& backbone, History keep, bool extrapolate) {
+void prepare(const Chain& chain, const DeadLoads& loads, Backbone& backbone, History keep, bool extrapolate) {
   const double extrapolation = extrapolate ? extrapolationOf(chain, backbone) : 0.0;
   auto element = backbone.elements.begin();
   for (const Chain::Part& part : chain.parts) {
@@ -65,49 +65,45 @@ double prepare(const Chain& chain, const DeadLoads& loads, Backbone& backbone, H
       ElementState& e = element->state;
       if (keep != History::kNone) {
         const Vector3 turn = turnOf(e, own_length, rest);
-        backbone.kernel->predict(e, {turn.x(), turn.y(), turn.z()}, extrapolation, keep == History::kSensitivities);
+        const bool first = element == backbone.elements.begin();  // its start does not turn
+        const int columns = keep != History::kSensitivities ? 0 : first ? kOfRotation : kColumns;
+        backbone.kernel->predict(e, {turn.x(), turn.y(), turn.z()}, extrapolation, columns);
       }
       e.length = own_length;
       e.start = k * own_length;
       element->setSection(rest);
-      element->setLoads(density * loads.gravity);
+      element->setLoad(density * loads.gravity);
     }
   }
-  return extrapolation;
 }
 
-Sweep sweep(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, SweepMode mode, Backbone& backbone) {
-  SweepResult result;
-  backbone.kernel->sweep(stateOf(chain, loads, base_moment, backbone), mode, result);
-  if (mode != SweepMode::kOnce) backbone.setTip(result.R_tip, result.p_tip);
-  return {Vector3(result.residual), result.change, result.is_admissible};
+MarchResult march(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, MarchMode mode, Backbone& backbone) {
+  MarchResult result;
+  backbone.kernel->march(stateOf(chain, loads, base_moment, backbone), mode, result);
+  backbone.setTip(result.R_tip, result.p_tip);
+  return result;
 }
 
 void placeUnloaded(const Chain& chain, Backbone& backbone) {
   prepare(chain, DeadLoads(), backbone);
-  sweep(chain, DeadLoads(), Vector3::Zero(), SweepMode::kUnloaded, backbone);
+  march(chain, DeadLoads(), Vector3::Zero(), MarchMode::kUnloaded, backbone);
 }
 
 bool shoot(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, bool nodes_hold_guess,
            Backbone& backbone, Vector3& residual) {
-  constexpr int kMaxSweeps = 100;
+  constexpr int kMaxIterations = 100;
   constexpr double kConverged = 2e-16, kWobble = 1e-13;  // rad
   double last_change = kInfinity;
-  for (int i = 0; i < kMaxSweeps; ++i) {
+  for (int i = 0; i < kMaxIterations; ++i) {
     const bool cold = i == 0 && !nodes_hold_guess;
-    const Sweep s = sweep(chain, loads, base_moment, cold ? SweepMode::kCold : SweepMode::kFinish, backbone);
-    residual = s.residual;
+    const MarchResult s = march(chain, loads, base_moment, cold ? MarchMode::kCold : MarchMode::kIterate, backbone);
+    residual = Vector3(s.residual);
     if (!s.is_admissible) return false;
     // Rounding can keep the change just above the bound; then stop when it no longer shrinks.
     if (s.change <= kConverged || (s.change <= kWobble && s.change >= last_change)) return true;
     last_change = s.change;
   }
   return false;
-}
-
-double tipSensitivities(const Chain& chain, const DeadLoads& loads, bool cold, double goal, Backbone& backbone,
-                  ElementSensitivities& columns, bool with_adjoint, SensitivitySet set) {
-  return backbone.kernel->columns(stateOf(chain, loads, Vector3::Zero(), backbone), cold, set, goal, with_adjoint, columns);
 }
 
 }  // namespace live_stiffness

@@ -6,41 +6,6 @@
 namespace live_stiffness {
 namespace {
 
-// All pivots of L D L^T of the symmetric part are positive, with `lifted` added to the diagonal.
-template <int n>
-bool isPositiveDefinite(const Eigen::Matrix<double, n, n>& a, const double (&lifted)[n]) {
-  double l[n][n];
-#pragma GCC unroll 6
-  for (int j = 0; j < n; ++j) {
-#pragma GCC unroll 6
-    for (int i = j + 1; i < n; ++i) l[i][j] = 0.5 * (a(i, j) + a(j, i));
-    l[j][j] = a(j, j) + lifted[j];
-  }
-#pragma GCC unroll 6
-  for (int k = 0; k < n; ++k) {
-    if (!(l[k][k] > 0.0)) return false;
-    const double inverse = 1.0 / l[k][k];
-#pragma GCC unroll 6
-    for (int j = k + 1; j < n; ++j) {
-      const double factor = l[j][k] * inverse;
-#pragma GCC unroll 6
-      for (int i = j; i < n; ++i) l[i][j] -= factor * l[i][k];
-    }
-  }
-  return true;
-}
-
-// The compliance of an inextensible rod is singular, and the sign of its smallest eigenvalue is rounding. Beyond buckling
-// the negative eigenvalue is the larger, the smaller the loads are.
-constexpr double kRounding = 1e-11;
-
-// At a neutral equilibrium the compliance is infinite but for rounding and the error of discretisation. So it must not be
-// so much larger than that of the most compliant segment that no digit of it is left.
-bool isNeutral(double rotation, double bending_compliance, double error) {
-  const double neutral = std::min(1e7, 0.1 / error);
-  return !(rotation < neutral * bending_compliance);
-}
-
 // The bending compliance c that counts against a force n, rad/(N m^2). If a rod turns by phi more, the work of n is the
 // form (n . phi)(t . phi) - (n . t) |phi|^2, t the tangent. For t opposite to n this is |n| |phi|^2, of bending only; for t
 // normal to n it mixes bending with torsion. Times c it is largest for t opposite to n, unless torsion is more than twice as
@@ -94,16 +59,6 @@ double normalisedLoad(const Chain& chain, const DeadLoads& loads, const Backbone
   return std::sqrt(sum) + angular(loads.tip).norm() * most_compliant / kPi;
 }
 
-bool isTipStable(const Matrix6& C, double bending_compliance, double error) {
-  const double translation = C.topLeftCorner<3, 3>().trace(), rotation = C.bottomRightCorner<3, 3>().trace();
-  if (!(translation > 0.0) || isNeutral(rotation, bending_compliance, error)) return false;
-  const double linear = kRounding * translation, angular = kRounding * rotation;
-  return isPositiveDefinite<6>(C, {linear, linear, linear, angular, angular, angular});
-}
-
-bool isTipTurningStable(const Matrix3& C, double bending_compliance, double error) {
-  const double angular = kRounding * C.trace();
-  return !isNeutral(C.trace(), bending_compliance, error) && isPositiveDefinite<3>(C, {angular, angular, angular});
-}
+bool isNeutral(double growth, double error) { return !(growth < std::min(1e7, 0.1 / error)); }
 
 }  // namespace live_stiffness

@@ -1,6 +1,5 @@
 #pragma once
-// Stability of an equilibrium under dead loads, as far as its loads and the compliance of its tip can show it. For the
-// sections between base and tip see conjugate_points.h.
+// How many equilibria dead loads allow, and which of them are neutral.
 
 #include "rod/backbone.h"
 
@@ -13,13 +12,8 @@ namespace live_stiffness {
 // 4). NaN if a load is NaN.
 double normalisedLoad(const Chain& chain, const DeadLoads& loads, const Backbone& backbone);
 
-// True if the tangent compliance C of the tip is positive definite with a margin, so that the equilibrium is not neutral
-// either. bending_compliance: rotation of the most compliant segment by a unit moment, rad/(N m); error: relative error of C
-// without its growth towards buckling.
-bool isTipStable(const Matrix6& C, double bending_compliance, double error);
-// The same for the angular block alone, rad/(N m), which also shows a loss of stability: the buckling motion of a rod under
-// dead loads turns its tip. At the tip the moment does not change; if the tip did not turn either, nothing would move (the
-// linearised rod is a first-order equation in rotation and moment).
-bool isTipTurningStable(const Matrix3& C, double bending_compliance, double error);
+// True if the tip turns so much more under a moment than without loads (`growth` times) that no digit of that is left: at a
+// neutral equilibrium the compliance is infinite but for rounding and the relative `error` of discretisation.
+bool isNeutral(double growth, double error);
 
 }  // namespace live_stiffness

@@ -1,18 +1,22 @@
 #include "rod/statics.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 
-#include "rod/conjugate_points.h"
 #include "rod/stability.h"
 
 namespace live_stiffness {
+namespace {
+
+constexpr double kLargestDirect = 2.5;  // normalised load up to which a cold start needs no descent
+
+}  // namespace
 
 StaticsSolver::StaticsSolver(const Scene& scene, double accuracy, int stages)
     : chain_(scene),
-      length_(scene.length()),
       accuracy_(accuracy),
       discretisation_(chain_, accuracy, stages),
+      shape_(chain_),
+      descent_(chain_),
       rate_(kSlowestRate) {}
 
 void StaticsSolver::reset() {
@@ -23,134 +27,148 @@ void StaticsSolver::reset() {
   discretisation_.reset();
 }
 
-void StaticsSolver::forgetGuesses(const DeadLoads& loads, Backbone& backbone) {
-  prepare(chain_, loads, backbone);
-  warm_ = has_sensitivities_ = nodes_hold_guess_ = false;
-  solutions_ = 0;
+void StaticsSolver::prepareUnloaded(Backbone& backbone) {
+  reset();
+  if (discretisation_.chooseUnloaded(backbone)) discretisation_.apply(backbone);
+  prepare(chain_, DeadLoads(), backbone);
 }
 
-// Puts the backbone into the unloaded shape; sets the base moment that the loads exert on that shape.
-void StaticsSolver::placeFresh(const DeadLoads& loads, Backbone& backbone) {
-  placeUnloaded(chain_, backbone);
-  forgetGuesses(loads, backbone);
-  nodes_hold_guess_ = true;
-  base_moment_ = momentOfUnloaded(loads, backbone);
-}
-
-// Base moment that the loads exert on the unloaded shape, which the backbone must have.
-Vector3 StaticsSolver::momentOfUnloaded(const DeadLoads& loads, const Backbone& backbone) const {
-  Vector3 moment = angular(loads.tip) + backbone.X_BT.p.cross(linear(loads.tip) + chain_.tip_mass * loads.gravity);
-  const GaussLegendre& table = gaussLegendre(backbone.kernel->stages);
-  auto element = backbone.elements.begin();
-  Pose X;
+Vector3 StaticsSolver::baseMoment(const DeadLoads& loads, const Backbone& backbone) const {
+  Vector3 moment(backbone.elements[0].state.m_start), n = loads.baseForce(chain_);
   for (const Chain::Part& part : chain_.parts) {
-    if (part.segment < 0) {
-      moment += (X.p + 0.5 * part.length * X.R.col(2)).cross(part.mass * loads.gravity);
-      X.p += part.length * X.R.col(2);
-      continue;
-    }
-    const int count = backbone.element_count[part.segment];
-    for (int k = 0; k < count; ++k, ++element) {
-      Vector3 centre = element->p_start();
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < table.nodes; ++j) centre[i] += table.b[j] * element->state.offset[i][j];
-      moment += centre.cross(part.mass / count * loads.gravity);
-      X = element->X_end();
-    }
+    if (part.segment >= 0) break;
+    moment += part.length * Vector3::UnitZ().cross(n - 0.5 * part.mass * loads.gravity);
+    n -= part.mass * loads.gravity;
   }
   return moment;
 }
 
-void StaticsSolver::prepareUnloaded(Backbone& backbone) {
-  warm_ = has_sensitivities_ = false;
+// Moments with which the shape of the elements carries the loads.
+void StaticsSolver::balance(const DeadLoads& loads, Backbone& backbone) {
+  const MarchResult without = march(chain_, loads, Vector3::Zero(), MarchMode::kShape, backbone);
+  for (RodElement& element : backbone.elements)
+    for (int i = 0; i < 3; ++i) element.state.m_start[i] -= without.residual[i];
+}
+
+// The same shape on the elements that are chosen now.
+void StaticsSolver::rebuild(const DeadLoads& loads, Backbone& backbone) {
+  constexpr int kEach = 6;
+  shape_.resize(backbone, kEach);
+  shape_.take(backbone);
+  discretisation_.apply(backbone);
+  prepare(chain_, loads, backbone);
+  shape_.place(backbone);
+  balance(loads, backbone);
+  has_sensitivities_ = false;
   solutions_ = 0;
-  buckling_factor_ = 1.0;
-  rate_ = kSlowestRate;
-  discretisation_.chooseUnloaded(backbone);
-  prepare(chain_, DeadLoads(), backbone);
 }
 
 // Extrapolates a guess from the last solutions. Sensitivities are not extrapolated where one iteration of them is enough
 // anyway.
 void StaticsSolver::extrapolateGuess(const DeadLoads& loads, Backbone& backbone) {
-  constexpr double kOnePass = 1e-4;
-  const History known = accuracy_ < kOnePass && has_sensitivities_ ? History::kSensitivities : History::kShape;
+  constexpr double kOneIteration = 1e-4;
+  const History known = accuracy_ < kOneIteration && has_sensitivities_ ? History::kSensitivities : History::kShape;
   const bool has_history = solutions_ >= 2 && known == history_;
-  const double extrapolation = prepare(chain_, loads, backbone, known, has_history);
+  prepare(chain_, loads, backbone, known, has_history);
   history_ = known;
-  const Vector3 last = base_moment_;
-  base_moment_ += extrapolation * (last - moment_before_);
-  moment_before_ = last;
 }
 
-// By the fastest method that converges, on any branch.
-bool StaticsSolver::findEquilibrium(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
-  Known known = !warm_ ? Known::kNone : has_sensitivities_ ? Known::kSensitivities : Known::kInverse;
-  if (warm_) extrapolateGuess(loads, backbone);
-  else placeFresh(loads, backbone);
-  while (true) {
-    bool converged = chordIteration(loads, known, kMaxSweeps, backbone, report);
-    if (!converged) {
-      discretisation_.shorten();
-      const bool is_shorter = discretisation_.choose(loads, backbone);
-      placeFresh(loads, backbone);
-      converged = is_shorter && chordIteration(loads, Known::kNone, kMaxSweeps, backbone, report);
-    }
-    if (!converged) {
-      placeFresh(loads, backbone);
-      converged = newton(loads, backbone, 30, report);
-    }
-    if (!converged || !findTangent(loads, backbone, report)) return false;
-    known = Known::kSensitivities;
-    if (discretisation_.refine(report.buckling_factor, backbone)) {
-      forgetGuesses(loads, backbone);
-      known = Known::kInverse;
-    } else if (!((report.residual + report.iteration) * report.buckling_factor > accuracy_) ||
-               report.iterations >= kMaxIterations / 2) {
-      return true;
-    }
+bool StaticsSolver::guess(Start start, const DeadLoads& loads, Backbone& backbone) {
+  if (start == Start::kWarm) {
+    extrapolateGuess(loads, backbone);
+    return true;
   }
+  has_sensitivities_ = false;
+  solutions_ = 0;
+  if (start == Start::kUnloaded) {
+    prepare(chain_, loads, backbone);
+    march(chain_, loads, Vector3::Zero(), MarchMode::kUnloaded, backbone);
+    balance(loads, backbone);
+    IterationResult once;
+    backbone.kernel->iterate_all(stateOf(chain_, loads, Vector3::Zero(), backbone), once);
+    balance(loads, backbone);
+    return once.is_admissible;
+  }
+  prepare(chain_, loads, backbone);
+  shape_.resize(backbone, start == Start::kFineDescent ? 8 : 2);
+  shape_.takeUnloaded(chain_, backbone);
+  const EnergyDescent::End end = descent_.run(loads, backbone.rest, 1.0 / normalised_load_, shape_);
+  neutral_ = end == EnergyDescent::End::kNeutral;
+  if (discretisation_.chooseFor(shape_, backbone)) {
+    discretisation_.apply(backbone);
+    prepare(chain_, loads, backbone);
+  }
+  shape_.place(backbone);
+  balance(loads, backbone);
+  return end == EnergyDescent::End::kMinimum;
 }
 
-bool StaticsSolver::isStable(const DeadLoads& loads, const Backbone& backbone, const StaticsReport& report,
-                             SensitivitySet set) const {
-  const double error = report.relativeError();
-  return (set == SensitivitySet::kAll ? isTipStable(tangent_, bending_compliance_, error)
-                                 : isTipTurningStable(tangent_.bottomRightCorner<3, 3>(), bending_compliance_, error)) &&
-         !(mayBuckle(loads, backbone) && conjugatePoints(backbone) > 0);
+bool StaticsSolver::solveFrom(Start start, const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
+  constexpr int kMostWarm = 15, kMostCold = 60, kMostRefinements = 6;
+  if (!guess(start, loads, backbone)) return false;
+  for (int refinement = 0; refinement < kMostRefinements; ++refinement) {
+    const int most = start == Start::kWarm && refinement == 0 ? kMostWarm : kMostCold;
+    if (!converge(start, loads, most, backbone, report) || !findTangent(loads, backbone, report)) return false;
+    report.converged = true;
+    if (discretisation_.refine(report.buckling_factor, backbone)) rebuild(loads, backbone);
+    else if (!((report.residual + report.iteration) * report.buckling_factor > accuracy_)) return report.stable;
+  }
+  return report.stable;
 }
 
-bool StaticsSolver::mayBuckle(const DeadLoads& loads, const Backbone& backbone) const {
-  return !(normalisedLoad(chain_, loads, backbone) < 1.0);  // NaN, too
+bool StaticsSolver::solveCold(const DeadLoads& loads, Backbone& backbone, StaticsReport& report) {
+  reset();
+  normalised_load_ = normalisedLoad(chain_, loads, backbone);
+  neutral_ = false;
+  for (const Start start : {Start::kUnloaded, Start::kDescent, Start::kFineDescent}) {
+    if (neutral_ || (start == Start::kUnloaded && !(normalised_load_ < kLargestDirect))) continue;
+    if (start == Start::kFineDescent) discretisation_.shorten();
+    if (discretisation_.choose(loads, backbone)) discretisation_.apply(backbone);
+    const int before = report.iterations;
+    report = StaticsReport();
+    report.iterations = before;
+    if (solveFrom(start, loads, backbone, report)) return true;
+  }
+  report.converged = report.converged || neutral_;
+  report.stable = false;
+  return false;
+}
+
+// The largest share of the loads under which there is a stable equilibrium that is not neutral, to 0.1 %, if these are the
+// small ones.
+double StaticsSolver::stableShare(const DeadLoads& loads, Backbone& backbone) {
+  double low = 0.0, high = 1.0;
+  for (int i = 0; i < 10; ++i) {
+    const double share = 0.5 * (low + high);
+    StaticsReport report;
+    (solveCold(loads.scaled(share), backbone, report) ? low : high) = share;
+  }
+  return low;
 }
 
 StaticsReport StaticsSolver::solve(const DeadLoads& loads, Backbone& backbone) {
-  StaticsReport report;
-  bending_compliance_ = stiffest_ = 0.0;
+  bending_compliance_ = stiffest_ = most_compliant_ = 0.0;
   for (const Chain::Part& part : chain_.parts)
     if (part.segment >= 0) {
       const RestState& rest = backbone.rest[part.segment];
       const double length = rest.stretch * part.length;
-      bending_compliance_ = std::max(bending_compliance_, rest.c.bending_torsion.diagonal().maxCoeff() * length);
+      const double compliance = rest.c.bending_torsion.diagonal().maxCoeff() * length;
+      bending_compliance_ = std::max(bending_compliance_, compliance);
+      most_compliant_ += compliance;
       stiffest_ += rest.c.bending_torsion.diagonal().minCoeff() * length;
     }
-  // New elements hold no guess, but the base moment is kept.
-  if (discretisation_.choose(loads, backbone)) {
-    has_sensitivities_ = nodes_hold_guess_ = false;
-    solutions_ = 0;
+  StaticsReport report;
+  bool solved = false;
+  if (warm_) {
+    if (discretisation_.choose(loads, backbone)) rebuild(loads, backbone);
+    solved = solveFrom(Start::kWarm, loads, backbone, report);
   }
-  // Newton's method may converge to any equilibrium. So where there may be several, it is used only near a stable one.
-  if (warm_ || !mayBuckle(loads, backbone)) {
-    report.converged = findEquilibrium(loads, backbone, report);
-    report.stable = report.converged && isStable(loads, backbone, report);
+  if (!solved && !solveCold(loads, backbone, report) && report.converged) {
+    report.stable_share = stableShare(loads, backbone);
+    warm_ = false;
+    return report;
   }
-  if (!report.stable) {
-    StaticsReport second;
-    second.converged = findAlongLoads(loads, backbone, second);
-    second.iterations += report.iterations;
-    report = second;
-  }
-  warm_ = report.converged && report.stable;
+  warm_ = report.stable;
   solutions_ = warm_ ? solutions_ + 1 : 0;
   return report;
 }

@@ -1,49 +1,46 @@
 #pragma once
-// Boundary value problem of a scene under dead loads (weight, tip wrench), by shooting on the base moment.
+// Boundary value problem of a scene under dead loads (weight, tip wrench), by multiple shooting: docs/derivation.md, section 4.
 //
-// For dead loads the force n(s) is known in advance (weights beyond s plus the tip force), so only the base moment m0
-// is unknown: three unknowns for any number of segments and links. The residual is the moment at T that no load explains.
+// Unknown are orientation and moment at the start of every element. For dead loads the force n(s) is known in advance (weights
+// beyond s plus the tip force). One Newton step is a Riccati sweep over the joints, so its cost is linear in their number, and
+// nothing grows along the chain.
 
-#include "rod/branch_search.h"
 #include "rod/discretisation.h"
+#include "rod/energy_descent.h"
 #include "rod/shooting.h"
 
 namespace live_stiffness {
 
 struct StaticsReport {
   bool converged = false;
-  bool stable = false;         // the tangent compliance is positive definite and there is no conjugate point; false:
-                               // unstable, or neutral (a symmetric column that may lean in any direction)
-  bool buckled = false;        // the branch that starts at zero load loses its stability before the full loads; the
-                               // result is on the stable branch that follows
-  double stable_share = 1.0;   // share of the loads up to which that branch is stable
-  int iterations = 0;          // iterations over the chain; of load continuation: shots, or series of iterations; all
-                               // attempts together, at most 2 kMaxIterations
-  double residual = 0.0;       // of the tip moment, as bending of the most compliant segment over its length, rad
+  bool stable = false;         // the second variation of the energy is positive definite; false: unstable, or neutral (a
+                               // symmetric column that may lean in any direction)
+  double stable_share = 1.0;   // if not stable: share of the loads up to which there is a stable equilibrium nearby
+  int iterations = 0;          // over the chain, all attempts together, at most kMaxIterations
+  double residual = 0.0;       // of the moments, as bending of the most compliant segment over its length, rad
   double truncation = 0.0;     // estimated relative error of discretisation
   double iteration = 0.0;      // estimated relative error of shape and sensitivities after their last iterations
-  double rounding = 0.0;       // estimated relative error of rounding; grows on long chains under tension
-  double buckling_factor = 1.0;  // buckling factor: compliance of the tip divided by that without loads; multiplies the errors
+  double rounding = 0.0;       // estimated relative error of rounding
+  double buckling_factor = 1.0;  // compliance of the tip divided by that without loads; multiplies the errors
 
   double relativeError() const { return truncation + residual + iteration + rounding; }
 };
 
 class StaticsSolver {
  public:
-  static constexpr int kMaxIterations = 600;
+  static constexpr int kMaxIterations = 400;
 
   // accuracy: relative; decides stages, number of elements and when iterations stop. stages: of every element, or 0.
   StaticsSolver(const Scene& scene, double accuracy, int stages = 0);
   StaticsSolver(const StaticsSolver&) = delete;  // its parts refer to one another
 
-  // Solves from backbone.rest. Starts from the last solution, or after reset() from the unloaded shape. First quasi-Newton
-  // iterations, which correct shape and base moment together; if they do not converge, damped Newton steps with converged
-  // shooting. If this finds no stable equilibrium, or if a cold start has loads that allow several, load continuation from
-  // zero (branch_search.h). On success the backbone holds the shape, and the tangent can be read.
+  // Solves from backbone.rest. On success the backbone holds the shape, and the tangent can be read. Never allocates.
   //
-  // A warm start stays on the branch of the last solution while that is stable, as the robot does, even where a cold
-  // start would find another one: which of several stable shapes a robot has depends on its past. After reset() the result
-  // is that of a cold start.
+  // A cold start (the first one, or after reset()) begins with the shape without loads. Where the loads allow one equilibrium
+  // only, Newton's method goes from there; else the robot first moves downhill in energy under its full loads, and the result is
+  // the stable equilibrium in whose valley that ends. A warm start begins with the last solution and stays on its branch while
+  // that is stable, as the robot does, even where a cold start would find another one: which of several stable shapes a robot
+  // has depends on its past.
   StaticsReport solve(const DeadLoads& loads, Backbone& backbone);
 
   // Makes the backbone ready for solveUnloaded() of compliance/material_compliance.h, and forgets the last solution.
@@ -53,53 +50,45 @@ class StaticsSolver {
 
   // Compliance of T under a dead wrench at T (base axes), by the derivative of the loaded equilibrium: tangent, 6x6.
   const Matrix6& tangentCompliance() const { return tangent_; }
+
   // Total moment at the base, N m, base axes.
-  const Vector3& baseMoment() const { return base_moment_; }
+  Vector3 baseMoment(const DeadLoads& loads, const Backbone& backbone) const;
 
   void reset();
 
  private:
-  static constexpr int kMaxSweeps = 40;
   static constexpr double kSlowestRate = 0.2;  // largest convergence rate that the stopping rule assumes
 
-  class Finder;  // for the branch search
-  enum class Known {  // what is known of a solution nearby
-    kNone,
-    kInverse,  // inverse of the residual's derivative
-    kSensitivities,  // the same, and the elements hold its shape and sensitivities
-  };
-  bool chordIteration(const DeadLoads& loads, Known known, int max_sweeps, Backbone& backbone, StaticsReport& report);
+  enum class Start { kWarm, kUnloaded, kDescent, kFineDescent };
+  bool solveFrom(Start start, const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
+  bool guess(Start start, const DeadLoads& loads, Backbone& backbone);
   void extrapolateGuess(const DeadLoads& loads, Backbone& backbone);
-  bool findEquilibrium(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
-  bool findAlongLoads(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
-  void refineSolution(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
-  bool findTangent(const DeadLoads& loads, Backbone& backbone, StaticsReport& report, SensitivitySet set = SensitivitySet::kAll);
-  bool mayBuckle(const DeadLoads& loads, const Backbone& backbone) const;
-  bool isStable(const DeadLoads& loads, const Backbone& backbone, const StaticsReport& report,
-                SensitivitySet set = SensitivitySet::kAll) const;
-  bool updateInverse(const DeadLoads& loads, double goal, Backbone& backbone);
-  bool integrateChain(const DeadLoads& loads, const Vector3& base_moment, Backbone& backbone, Vector3& residual);
-  bool newton(const DeadLoads& loads, Backbone& backbone, int max_iterations, StaticsReport& report);
-  void forgetGuesses(const DeadLoads& loads, Backbone& backbone);
-  void placeFresh(const DeadLoads& loads, Backbone& backbone);
-  Vector3 momentOfUnloaded(const DeadLoads& loads, const Backbone& backbone) const;
-  double bendingOf(const Vector3& moment) const { return bending_compliance_ * moment.norm(); }
+  void balance(const DeadLoads& loads, Backbone& backbone);
+  void rebuild(const DeadLoads& loads, Backbone& backbone);
+  bool converge(Start start, const DeadLoads& loads, int most_iterations, Backbone& backbone, StaticsReport& report);
+  bool linearise(const DeadLoads& loads, Linearisation how, Backbone& backbone, LinearisationResult& result);
+  bool findTangent(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
+  bool solveCold(const DeadLoads& loads, Backbone& backbone, StaticsReport& report);
+  double stableShare(const DeadLoads& loads, Backbone& backbone);
+  double bendingOf(double moment) const { return bending_compliance_ * moment; }
 
   Chain chain_;
-  double length_, accuracy_;
+  double accuracy_;
   Discretisation discretisation_;
-  Vector3 base_moment_ = Vector3::Zero(), moment_before_ = Vector3::Zero();  // of this solution and the last
-  Matrix3 residual_inverse_ = Matrix3::Zero();  // of d residual / d base moment
+  NodalRotations shape_;
+  EnergyDescent descent_;
   Matrix6 tangent_ = Matrix6::Zero();
-  double bending_compliance_ = 0.0;      // L c_bt of the most compliant segment, rad / (N m)
-  double stiffest_ = 0.0;      // rotation of the tip by a unit moment about its stiffest axis, unloaded, rad / (N m)
-  double buckling_factor_ = 1.0; // see StaticsReport, of the last solve
-  History history_ = History::kNone;  // what the last warm solve kept
-  long solutions_ = 0;         // number of consecutive solutions on the same elements
-  double rate_;                // convergence rate of the last iterations
-  bool warm_ = false;          // base moment and inverse are those of a solution
+  double bending_compliance_ = 0.0;  // L c_bt of the most compliant segment, rad / (N m)
+  double stiffest_ = 0.0;            // rotation of the tip by a unit moment about its stiffest axis, unloaded, rad / (N m)
+  double most_compliant_ = 0.0;      // the same about its most compliant axis
+  double buckling_factor_ = 1.0;     // see StaticsReport, of the last solve
+  double rate_;                      // convergence rate of the last iterations
+  double normalised_load_ = 0.0;     // of the last cold start, see stability.h
+  bool warm_ = false;                // the elements hold a solution
   bool has_sensitivities_ = false;   // the elements hold sensitivities of a shape nearby
-  bool nodes_hold_guess_ = false;
+  bool neutral_ = false;             // the last descent ended in a neutral equilibrium
+  History history_ = History::kNone;  // what the last warm solve kept
+  long solutions_ = 0;               // number of consecutive solutions on the same elements
 };
 
 }  // namespace live_stiffness

@@ -26,7 +26,7 @@ void HardOutcome::record(SolveCode code, SolveCode wanted, int iterations, doubl
   if (code == SolveCode::kOk) estimate_ = std::max(estimate_, estimate);
   time_us_ = std::max(time_us_, time_us);
   expect(code == wanted || any_status_, std::string("status ") + codeName(code) + " instead of " + codeName(wanted));
-  expect(iterations <= 2 * StaticsSolver::kMaxIterations, "iterations beyond the bound");
+  expect(iterations <= StaticsSolver::kMaxIterations, "iterations beyond the bound");
 }
 
 StiffnessSolution HardOutcome::solve(const StiffnessModel& model, const Pressures& pressures, const Wrench& tip_wrench,

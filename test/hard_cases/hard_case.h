@@ -67,13 +67,12 @@ struct HardTheme {
 
 HardTheme straightAndCurved();
 HardTheme buckling();
-HardTheme followerLoads();
 HardTheme sectionLimits();
 HardTheme slenderAndStiff();
 HardTheme loadsAndStarts();
 
 inline std::vector<HardTheme> hardThemes() {
-  return {straightAndCurved(), buckling(), followerLoads(), sectionLimits(), slenderAndStiff(), loadsAndStarts()};
+  return {straightAndCurved(), buckling(), sectionLimits(), slenderAndStiff(), loadsAndStarts()};
 }
 
 }  // namespace live_stiffness

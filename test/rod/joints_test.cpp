@@ -77,5 +77,54 @@ TEST(Joints, KeepPoseAndBalanceOfForceAndMoment) {
   }
 }
 
+// Seen from the other end: at every joint, of elements, too, the moment is that of all loads beyond, by Gauss quadrature over
+// the same shape.
+TEST(Joints, HoldTheMomentOfAllLoadsBeyond) {
+  Scene hanging, paper = paperScene(1);  // elements by the dozen
+  hanging.gravity = Vector3(0.5, 0.0, 9.81);
+  for (int k = 0; k < 8; ++k) hanging.chain.push_back(segmentOf(paper, 0));
+  const Wrench wrench = (Wrench() << 0.01, 0.02, -0.02, 1e-3, -2e-3, 1e-3).finished();
+  for (const Scene& scene : {paperScene(2), awkwardScene(), threeSegments(), hanging}) {
+    const StiffnessModel model(scene, accurateTo(1e-12));
+    StiffnessWorkspace workspace = model.makeWorkspace();
+    RandomSource random(9);
+    const StiffnessSolution solution = model.solve(random.pairs(scene.chamberCount(), 0.0, 0.5e5), wrench, workspace);
+    ASSERT_TRUE(solution.status.ok()) << model.describe(solution.status);
+    const Backbone& backbone = workspace.backbone();
+    const GaussLegendre& gauss = gaussLegendre(7);
+    struct PointLoad {
+      Vector3 p, force;
+    };
+    std::vector<PointLoad> loads;
+    std::vector<size_t> loads_before;  // each element
+    Pose X;
+    walk(
+        scene,
+        [&](int k, const Segment& segment) {
+          const int count = backbone.element_count[k];
+          for (int i = 0; i < count; ++i) {
+            loads_before.push_back(loads.size());
+            for (int node = 0; node < 7; ++node)
+              loads.push_back({model.station(workspace, k, (i + gauss.c[node]) / count).X_BQ.p,
+                               gauss.b[node] / count * segment.mass() * *scene.gravity});
+          }
+          X = model.station(workspace, k, 1.0).X_BQ;
+        },
+        [&](const Link& link) {
+          loads.push_back({X * Vector3(0.0, 0.0, 0.5 * link.length), link.mass * *scene.gravity});
+          X.p = X * Vector3(0.0, 0.0, link.length);
+        });
+    loads.push_back({solution.X_BT.p, linear(wrench) + scene.tip_mass * *scene.gravity});
+    double largest = 0.0;
+    for (const RodElement& element : backbone.elements) largest = std::max(largest, Vector3(element.state.m_start).norm());
+    for (size_t i = 0; i < backbone.elements.size(); ++i) {
+      const RodElement& element = backbone.elements[i];
+      Vector3 moment = angular(wrench);
+      for (size_t k = loads_before[i]; k < loads.size(); ++k) moment += (loads[k].p - element.p_start()).cross(loads[k].force);
+      EXPECT_TRUE(matrixNear(Vector3(element.state.m_start), moment, 1e-9 * largest)) << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace live_stiffness

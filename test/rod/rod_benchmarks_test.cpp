@@ -69,29 +69,6 @@ TEST(RodBenchmarks, UniformDeadLoad) {
   }
 }
 
-TEST(RodBenchmarks, UniformFollowerLoad) {
-  const auto path = sharedDataFile(kFile);
-  SKIP_WITHOUT(path, kFile);
-  for (const YAML::Node& row : YAML::LoadFile(*path)["uniform_distributed_load"]["rows"]) {
-    const Vector3 load = row["qL3_EI"].as<double>() * Vector3::UnitX();
-    const Vector3 p = tipByMarchingFromTip(stiffRod(kInextensible), Vector3::Zero(), load);
-    const Vector3 expected(row["follower"][1].as<double>(), 0.0, row["follower"][0].as<double>());
-    EXPECT_TRUE(matrixNear(p, expected, kPromised)) << row["qL3_EI"];
-  }
-}
-
-TEST(RodBenchmarks, FollowerTipLoad) {
-  const auto path = sharedDataFile(kFile);
-  SKIP_WITHOUT(path, kFile);
-  const double length = 100.0;
-  const BareRod rod(length, 3.5e7, 3.5e7, 1.61538e8, 4.2e8);  // GJ plays no part in the plane
-  for (const YAML::Node& row : YAML::LoadFile(*path)["follower_tip_load"]["rows"]) {
-    const Vector3 p = tipByMarchingFromTip(rod, row["F"].as<double>() * Vector3::UnitX(), Vector3::Zero());
-    const Vector3 expected(row["v"].as<double>(), 0.0, length + row["u"].as<double>());
-    EXPECT_TRUE(matrixNear(p, expected, kPromised * length)) << row["F"];
-  }
-}
-
 // Data axes X, Y, Z in ours: start tangent Y is z, curving towards X is x, the load along Z is -y.
 TEST(RodBenchmarks, BatheBolourchiBend) {
   const auto path = sharedDataFile(kFile);

@@ -87,7 +87,7 @@ TEST(Statics, MomentsBalanceAtTheBase) {
       ASSERT_TRUE(solution.status.ok()) << c.name;
       const Vector3 expected = momentOfLoads(model, workspace, solution.X_BT, wrench);
       // Gauss quadrature of order 10 over 12 parts is exact to rounding; the stations are accurate to 1e-12.
-      EXPECT_TRUE(matrixNear(workspace.statics().baseMoment(), expected, 1e-9 * expected.norm())) << c.name;
+      EXPECT_TRUE(matrixNear(baseMoment(model, workspace, wrench), expected, 1e-9 * expected.norm())) << c.name;
     }
 }
 
@@ -128,7 +128,7 @@ TEST(Statics, WithoutLoadIsTheUnloadedShape) {
   }
   StaticsSolver solver(scene, 1e-12);
   ASSERT_TRUE(solver.solve(DeadLoads(), backbone).converged);
-  EXPECT_TRUE(matrixNear(solver.baseMoment(), Vector3::Zero(), 0.0));
+  EXPECT_TRUE(matrixNear(solver.baseMoment(DeadLoads(), backbone), Vector3::Zero(), 0.0));
   Backbone closed(scene);
   closed.rest = backbone.rest;
   Matrix6 unused;
@@ -137,8 +137,8 @@ TEST(Statics, WithoutLoadIsTheUnloadedShape) {
   EXPECT_LT(poseError(backbone.X_BT, closed.X_BT, scene.length()), 1e-12);  // the accuracy asked for
 }
 
-// Eight segments, 320 mm: hanging, a shot from the base strays by exp(L sqrt(n c_bt)), here 1e5, and needs load
-// continuation; standing, the chain topples over, and a solve that meets only an unstable branch must say so.
+// Eight segments, 320 mm: hanging, a shot from the base would stray by exp(L sqrt(n c_bt)), here 1e5; standing, the chain
+// topples over, to where it hangs.
 TEST(Statics, EightSegmentsSolveUnderTheirOwnWeight) {
   Scene paper = paperScene(1);
   for (double gravity : {9.81, -9.81}) {
@@ -148,34 +148,29 @@ TEST(Statics, EightSegmentsSolveUnderTheirOwnWeight) {
     scene.tip_mass = 0.005;
     const StiffnessModel model(scene, accurateTo(1e-9));
     RandomSource random(43);
-    int solved = 0;
     for (int i = 0; i < 20; ++i) {
       StiffnessWorkspace workspace = model.makeWorkspace();
       const StiffnessSolution solution = model.solve(random.pairs(48, 0.0, 0.5e5), Wrench::Zero(), workspace);
-      if (gravity < 0.0 && solution.status.code == SolveCode::kUnstable) continue;
-      ++solved;
       ASSERT_TRUE(solution.status.ok()) << gravity << ": " << model.describe(solution.status);
       EXPECT_LT(solution.numerical_error, 1e-8);
       const Vector3 moment = momentOfLoads(model, workspace, solution.X_BT, Wrench::Zero());
-      EXPECT_TRUE(matrixNear(workspace.statics().baseMoment(), moment, 1e-8));  // N m, of about 0.1
+      EXPECT_TRUE(matrixNear(baseMoment(model, workspace, Wrench::Zero()), moment, 1e-8));  // N m, of about 0.1
+      EXPECT_EQ(solution.compliance.llt().info(), Eigen::Success);
     }
-    std::cout << "gravity " << gravity << " along z: " << solved << " of 20 solved\n";
-    EXPECT_GT(solved, 0);
   }
 }
 
-// Standing, with all chambers at 1.5 bar, the paper's segment is past its buckling load: the straight shape balances,
-// but nothing would hold it there.
-TEST(Statics, AnUnstableEquilibriumIsNotReturnedAsOk) {
+// Standing, with all chambers at 1.5 bar, the paper's segment is past its buckling load: the straight shape balances, but
+// nothing would hold it there, and it may lean in any direction.
+TEST(Statics, ANeutralEquilibriumIsNotReturnedAsOk) {
   const StiffnessModel model(paperScene(1), ModelOptions());
   const StiffnessSolution solution = solveCold(model, Pressures::Constant(6, 1.5e5));
   EXPECT_EQ(solution.status.code, SolveCode::kUnstable);
   EXPECT_NE(model.describe(solution.status).find("topple"), std::string::npos);
 }
 
-// Newton's method from the unloaded shape ends on an unstable branch here; the loads grown from zero lead to the stable
-// one, where the tangent is positive definite.
-TEST(Statics, AnUnstableEquilibriumGivesWayToTheStableOneThatTheLoadsLeadTo) {
+// Newton's method from the unloaded shape ends on an unstable branch here.
+TEST(Statics, AnUnstableEquilibriumGivesWayToTheStableOneThatTheRobotFallsTo) {
   const StiffnessModel model(paperScene(2), ModelOptions());
   Pressures pressures(12);
   pressures << 80386, 80386, 98216, 98216, 90725, 90725, 66227, 66227, 34248, 34248, 23915, 23915;
@@ -210,7 +205,7 @@ TEST(TangentCompliance, DivergesAtReissnersBucklingLoad) {
   EXPECT_NEAR(0.999 - b * 0.001 / (b - a), 1.0, 3e-6);
 }
 
-// Warm solves go on from the last change. That may save kernel; it must not show in the result, whatever the pressures
+// Warm solves go on from the last change. That may save iterations; it must not show in the result, whatever the pressures
 // do next.
 TEST(WarmStart, IsAsAccurateAsAColdOneWhateverThePressuresDo) {
   const std::vector<Pressures> steps = {bars(0.40, {1, 1, 0.5, 0.5, 0, 0}), bars(0.41, {1, 1, 0.5, 0.5, 0, 0}),
@@ -235,9 +230,9 @@ TEST(WarmStart, IsAsAccurateAsAColdOneWhateverThePressuresDo) {
     }
 }
 
-TEST(WarmStart, TakesFewerSweepsWhereThePressuresGoOnAsBefore) {
+TEST(WarmStart, TakesFewerIterationsWhereThePressuresGoOnAsBefore) {
   const StiffnessModel model(paperScene(1), accurateTo(1e-9));
-  const auto sweeps = [&](bool steady) {
+  const auto iterations = [&](bool steady) {
     StiffnessWorkspace workspace = model.makeWorkspace();
     int count = 0;
     double a = 0.5, b = 0.5;
@@ -249,7 +244,7 @@ TEST(WarmStart, TakesFewerSweepsWhereThePressuresGoOnAsBefore) {
     }
     return count;
   };
-  EXPECT_LT(sweeps(true), sweeps(false));
+  EXPECT_LT(iterations(true), iterations(false));
 }
 
 // A first solve that converges at once must not vouch for the next one.

@@ -36,8 +36,4 @@ struct BareRod {
   }
 };
 
-// Position of the tip seen from the base when the wrench at the tip is given in the tip's own axes: from there to the
-// base it is an initial value problem. tip_force: N; follower_load: N/m; body axes.
-Vector3 tipByMarchingFromTip(const BareRod& rod, const Vector3& tip_force, const Vector3& follower_load);
-
 }  // namespace live_stiffness

@@ -334,7 +334,7 @@ bool DrawOutcome::isAccurate(double accuracy) const {
 }
 
 bool DrawOutcome::isHonest(double accuracy) const {
-  return finite && !threw && iterations <= 2 * StaticsSolver::kMaxIterations &&
+  return finite && !threw && iterations <= StaticsSolver::kMaxIterations &&
          (code != SolveCode::kOk || isAccurate(accuracy));
 }
 
@@ -361,7 +361,7 @@ DrawOutcome runHardDraw(const HardDraw& draw) {
       // rod under tension is shorter than it by the root of load times softness.
       const int panels = 24 + static_cast<int>(std::min(1000.0, std::sqrt(load * softness)));
       const Vector3 moment = momentOfLoads(model, workspace, solution.X_BT, draw.wrench, panels);
-      outcome.imbalance = (workspace.statics().baseMoment() - moment).norm() / (load + 1.0 / softness);
+      outcome.imbalance = (baseMoment(model, workspace, draw.wrench) - moment).norm() / (load + 1.0 / softness);
     }
     ModelOptions fine = draw.options;
     fine.accuracy = 1e-12;

@@ -1,5 +1,7 @@
 #include "support/moment_balance.h"
 
+#include "rod/statics.h"
+
 namespace live_stiffness {
 
 Vector3 momentOfLoads(const StiffnessModel& model, const StiffnessWorkspace& workspace, const Pose& X_BT,
@@ -26,6 +28,11 @@ Vector3 momentOfLoads(const StiffnessModel& model, const StiffnessWorkspace& wor
         X.p = X * Vector3(0.0, 0.0, link.length);
       });
   return moment;
+}
+
+Vector3 baseMoment(const StiffnessModel& model, const StiffnessWorkspace& workspace, const Wrench& tip) {
+  const DeadLoads loads{model.scene().gravity.value_or(Vector3::Zero()), tip};
+  return workspace.statics().baseMoment(loads, workspace.backbone());
 }
 
 }  // namespace live_stiffness

@@ -10,4 +10,7 @@ namespace live_stiffness {
 Vector3 momentOfLoads(const StiffnessModel& model, const StiffnessWorkspace& workspace, const Pose& X_BT,
                       const Wrench& tip, int panels = 12);
 
+// Moment at the base that the last solve in `workspace` found, N m, base axes.
+Vector3 baseMoment(const StiffnessModel& model, const StiffnessWorkspace& workspace, const Wrench& tip);
+
 }  // namespace live_stiffness

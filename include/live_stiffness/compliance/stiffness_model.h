@@ -23,8 +23,8 @@ enum class SolveCode {
   kInvalidInput = 1,  // wrong channel count, or a value that is not finite or not physical
   kOutOfRange = 2,    // the pressures stretch a section beyond the range where it has positive area
   kNotConverged = 3,  // no equilibrium found within the bound on iterations
-  kUnstable = 4,      // only an unstable or neutral equilibrium was found: the robot would topple, or may lean in any
-                      // direction (a symmetric column beyond buckling: no finite compliance)
+  kUnstable = 4,      // there is no stable equilibrium, or a neutral one: a symmetric column beyond buckling may lean in any
+                      // direction and has no finite compliance
 };
 
 // Why a solve failed, without allocation; StiffnessModel::describe() makes a text of it.
@@ -42,8 +42,6 @@ const char* codeName(SolveCode code);
 struct StiffnessSolution {
   SolveStatus status;  // unless ok, nothing below holds
   int iterations = 0;  // over the chain; 0: closed form
-  bool buckled = false;  // the equilibrium that starts at zero load lost its stability as the loads grew; this is the stable
-                         // one that follows, which may be far away from it
   double numerical_error = 0.0;  // estimated upper bound of the relative error of pose and compliance
   Pose X_BT;                     // tip point, m
   Matrix6 compliance;            // tangent, of T under a dead wrench at T, base axes

@@ -1,0 +1,95 @@
+#pragma once
+// Material compliance along a chain: docs/derivation.md, section 7.
+
+#include "rod/element_shape_code.h"
+#include "rod/material_choice_code.h"
+#include "rod/section_state_code.h"
+
+namespace live_stiffness {
+namespace {
+
+template <int kStages>
+struct ChainCompliance {
+  using S = Shape<kStages>;
+  using M = MaterialChoice<kStages>;
+
+  static LIVE_STIFFNESS_INLINE void addCompliance(ElementState& e) {
+    copy(e.start_compliance, e.end_compliance);
+    if (!e.is_arc) add(e.compliance, e.end_compliance);
+    if (!isZero(e.end_compliance)) shiftOne(e.offset_end, e.end_compliance);
+    if (e.is_arc) add(e.compliance, e.end_compliance);  // about its end as it is
+  }
+
+  // Material compliance of everything up to here, about this section.
+  class Passed {
+   public:
+    LIVE_STIFFNESS_INLINE void pass(ElementState& e) {
+      if (before_) before_ = moved(e.p_start, e.start_compliance);
+      else copy(kNoCompliance, e.start_compliance);
+      addCompliance(e);
+      before_ = &e.end_compliance;
+      for (int i = 0; i < 3; ++i) about_[i] = e.p_start[i] + e.offset_end[i];
+    }
+    // About p.
+    LIVE_STIFFNESS_INLINE void finish(const double (&p)[3], PackedRow& out) const {
+      if (before_) moved(p, out);
+      else copy(kNoCompliance, out);
+    }
+
+   private:
+    static constexpr PackedRow kNoCompliance = {};
+    LIVE_STIFFNESS_INLINE const PackedRow* moved(const double (&p)[3], PackedRow& to) const {
+      const double d[3] = {p[0] - about_[0], p[1] - about_[1], p[2] - about_[2]};
+      copy(*before_, to);
+      if (d[0] != 0.0 || d[1] != 0.0 || d[2] != 0.0) shiftOne(d, to);
+      return &to;
+    }
+
+    const PackedRow* before_ = nullptr;
+    double about_[3] = {};
+  };
+
+  static double accumulate(const ChainState& chain, double accuracy, const double (&p_tip)[3], PackedRow& compliance) {
+    Passed passed;
+    double error = 0.0;
+    walk(
+        chain, [](const Vector&, const Vector&) {},
+        [&](ElementState& e, bool) {
+          M::material(e, false, accuracy);
+          passed.pass(e);
+          error += e.compliance_error;
+        });
+    passed.finish(p_tip, compliance);
+    return error;
+  }
+
+  static double placeChain(const ChainState& chain, double accuracy, MarchResult& result, PackedRow& compliance) {
+    SectionState at(kZero, kZero);
+    Passed passed;
+    double error = 0.0;
+    walk(
+        chain, [&](const Vector3d& piece, const Vector&) { at.cross(piece, kZero); },
+        [&](ElementState& e, bool) {
+          at.enter(e, true);
+          const double bending = e.length * e.length * squaredNorm(e.rest_curvature);
+          if (!(bending <= kMaxUnloadedBending * kMaxUnloadedBending)) error += 1.0;  // beyond the range of the series
+          if (bendsAsArc(e)) {
+            placeArc(e);
+          } else {
+            S::placeUnloaded(e);
+            M::material(e, true, accuracy);
+          }
+          passed.pass(e);
+          error += e.compliance_error;
+          at.leave(e);
+        });
+    if (hasOffset(chain)) at.cross(chain.tip_offset, kZero);
+    copy(*at.R, result.R_tip);
+    copy(at.p, result.p_tip);
+    passed.finish(at.p, compliance);
+    return error;
+  }
+};
+
+}  // namespace
+}  // namespace live_stiffness

@@ -1,0 +1,35 @@
+#pragma once
+// The shape of a chain as orientations at equally spaced nodes of every segment: what the minimiser of energy works on, and
+// how a shape is carried over to other elements as a guess.
+
+#include "rod/backbone.h"
+
+namespace live_stiffness {
+
+// Cayley vector 2 tan(angle / 2) axis of a rotation below half a turn, and the rotation.
+Vector3 cayleyVector(const Matrix3& R);
+Matrix3 cayleyRotation(const Vector3& g);
+
+struct NodalRotations {
+  std::vector<int> intervals;  // of each segment
+  std::vector<Matrix3> R;      // orientations in B: node 0 is the base, neighbouring segments share a node
+
+  // Room for the most intervals that a chain can have.
+  explicit NodalRotations(const Chain& chain);
+  static constexpr int kMostIntervals = 2 * Backbone::kMaxElements;  // of a segment
+
+  // As many intervals as elements of the backbone times `each`, as far as there is room.
+  void resize(const Backbone& backbone, int each);
+  // The shape that the elements of the backbone hold; of rest states alone if `unloaded`.
+  void take(const Backbone& backbone);
+  void takeUnloaded(const Chain& chain, const Backbone& backbone);
+  // Start orientations and nodes of the elements.
+  void place(Backbone& backbone) const;
+  // Sum of the angles between the nodes of a segment, rad.
+  double bending(int segment) const;
+
+ private:
+  Matrix3 at(int first, int intervals, double fraction) const;
+};
+
+}  // namespace live_stiffness
