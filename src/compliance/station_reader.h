@@ -20,6 +20,7 @@ Station stationAt(const Backbone& backbone, int segment, double fraction, const 
 class StationBatches {
  public:
   explicit StationBatches(std::vector<double> fractions);
+  StationBatches(const StationBatches& other) : StationBatches(other.fractions_) {}  // with its own room
 
   int size() const { return static_cast<int>(fractions_.size()); }
   // out: size() of them. Never allocates.

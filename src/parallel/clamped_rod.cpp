@@ -172,7 +172,8 @@ bool ClampedRod::refine(double buckling_factor) {
   const double growth = std::min(2.0, std::pow(2.0 * excess, 0.5 / stages));  // the error is of order 2 stages
   const int wanted = std::max(count + 1, static_cast<int>(std::ceil(count * growth)));
   if (count == Backbone::kMaxElements) return false;
-  backbone_.resize({std::min(Backbone::kMaxElements, wanted)}, stages);
+  backbone_.element_count[0] = std::min(Backbone::kMaxElements, wanted);
+  backbone_.resize(backbone_.element_count, stages);
   nodes_hold_guess_ = has_sensitivities_ = false;
   prepare(chain_, loads(), backbone_);
   return true;

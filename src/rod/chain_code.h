@@ -59,7 +59,7 @@ struct ChainKernel {
           S::iterate(e);
           if (!last || has_offset) S::endRotation(e);
           at.leave(e);
-          change = largerOf(e.change, change);
+          change += e.change;
           is_admissible = is_admissible && S::isAdmissible(e);
         });
     if (has_offset) at.cross(chain.tip_offset, kZero);

@@ -27,7 +27,7 @@ struct ChainState {
 
 // Result of one fixed-point iteration of every element from its own start.
 struct IterationResult {
-  double change;       // largest of the Cayley vectors of an element, rad
+  double change;       // of the Cayley vectors, sum over the elements, rad
   double turn;         // largest gap of rotation at a joint, rad
   double moment;       // largest of moment at a joint or at T, N m
   double lacking[3];   // moment at T: the load less what the shape gives, N m, base axes

@@ -161,9 +161,10 @@ struct Shape : Collocation<kStages> {
       e.m_start[i] += extrapolation * (m - e.m_before[i]);
       e.m_before[i] = m;
     }
-    double R[9], further[3];
+    double R[9];
     copy(e.R_start, R);
     if (extrapolation != 0.0) {
+      double further[3];
       turnBetween(e.R_before, R, further);
       for (double& x : further) x *= extrapolation;
       turnBy(further, e.R_start);

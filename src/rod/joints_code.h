@@ -54,12 +54,13 @@ struct Joints {
       const ElementTransfer& t = e.transfer;
       const bool clamped_end = clamped && k == count - 1;
       const Three B = Three::ofColumns(t.phi + kOfMoment), D = Three::ofColumns(t.m + kOfMoment), B_inverse = B.inverse();
-      const Three M = clamped_end ? B : D - S * B, inverse = clamped_end ? B_inverse : M.inverse();
+      const Three M = clamped_end ? B : D - S * B;
       if (!clamped_end) unstable += (M * B_inverse).notPositive();
-      inverse.copyTo(e.pivot_inverse);
+      const Three M_inverse = M.inverse();
+      M_inverse.copyTo(e.pivot_inverse);
       if (k == 0) break;
       const Three A = Three::ofColumns(t.phi + kOfRotation), C = Three::ofColumns(t.m + kOfRotation);
-      S = inverse * (clamped_end ? Three{} - A : S * A - C);
+      S = M_inverse * (clamped_end ? Three{} - A : S * A - C);
       S.copyTo(e.stiffness);
     }
     return unstable;

@@ -39,7 +39,7 @@ bool StaticsSolver::converge(Start start, const DeadLoads& loads, int most_itera
   constexpr double kRounding = 1e-13, kStalled = 1e-8;  // rad
   const double goal = std::max(0.2 * accuracy_ / buckling_factor_, 1e-15);
   const ChainState chain = stateOf(chain_, loads, Vector3::Zero(), backbone);
-  double last = kInfinity;
+  double last = kInfinity, last_left = kInfinity;
   int growing = 0, stalled = 0, last_sensitivities = 0;
   bool may_refine = start != Start::kWarm;
   IterationResult now;
@@ -58,7 +58,8 @@ bool StaticsSolver::converge(Start start, const DeadLoads& loads, int most_itera
       backbone.kernel->evaluate_all(chain);
       if (!linearise(loads, {kCoarseSensitivities, false, false, false, false}, backbone, ignored)) return false;
     }
-    backbone.kernel->correct(chain, now, kMostTurn);
+    // What the step turns the sections by is what the gaps along the whole chain amount to.
+    const double left = std::max(error, backbone.kernel->correct(chain, now, kMostTurn));
     if (may_refine && error < kRefinable) {
       may_refine = false;
       backbone.kernel->evaluate_all(chain);
@@ -68,13 +69,14 @@ bool StaticsSolver::converge(Start start, const DeadLoads& loads, int most_itera
       }
     }
     // One iteration gives no rate; then that of the last solve is used, with a lower limit.
-    if (i > 0) rate_ = std::max(kQuickestRate, std::min(kSlowestRate, error / last));  // 0 / 0: kSlowestRate
+    if (i > 0) rate_ = std::max(kQuickestRate, std::min(kSlowestRate, left / last_left));  // 0 / 0: kSlowestRate
     const double rate = i > 0 ? rate_ : std::max(rate_, 0.5 * kSlowestRate);
     // Rounding grows with the number of elements; what it leaves is part of the estimate.
     stalled += error > 0.3 * last && error < kStalled;
     const bool at_rounding = (error <= kRounding && error > 0.3 * last) || stalled > 3;
-    report.iteration = at_rounding ? error : rate * error;
+    report.iteration = at_rounding ? left : rate * left;
     last = error;
+    last_left = left;
     if (report.iteration > goal && !at_rounding) continue;
     const MarchResult end = march(chain_, loads, Vector3::Zero(), MarchMode::kClose, backbone);
     report.residual = bendingOf(end.gap);
