@@ -133,7 +133,7 @@ def main():
         common_ratio="%.0f" % (common["median_us"] / fast["median_us"]),
         tuned_ratio="%.0f" % (tuned["median_us"] / fast["median_us"]),
         library_error=small(fast["tangent_max"]), common_error=small(common["tangent_max"]),
-        textbook_us=us(method(rows, "textbook")["median_us"]), all_methods=all_methods(rows),
+        textbook_us=us(method(rows, "textbook (Till)")["median_us"]), all_methods=all_methods(rows),
         updates="%d" % distribution["updates"]["updates"], quantiles=quantiles(distribution),
         preemptions="%d" % distribution["updates"]["preemptions"],
         repeat_preemptions="%d" % distribution["repeats"]["preemptions"],

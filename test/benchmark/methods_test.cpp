@@ -17,7 +17,7 @@ namespace {
 // measured. Finite differences: step and rounding, on the softest scene.
 double errorBound(const MethodEntry& entry) {
   const double n = entry.resolution;
-  if (entry.family == "textbook") return 5e-5;
+  if (entry.family == "textbook (Till)" || entry.family == "optimised (Till)") return 5e-5;
   if (entry.family == "common practice" || entry.family == "common practice (tuned)") return 1e-5;
   if (entry.family == "RK4 with sensitivities") return 0.2 / std::pow(n, 4);
   if (entry.family == "Magnus 4") return 8e-3 / std::pow(n, 4);

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 
+#include "benchmark/methods/levenberg_marquardt.h"
 #include "benchmark/methods/material_sum.h"
 
 namespace live_stiffness {
@@ -17,7 +18,8 @@ constexpr double kTolerance = 1e-12;      // N
 
 CommonPractice::CommonPractice(const Scene& scene, Jacobians jacobians, int steps)
     : StiffnessMethod("RK4 N=" + std::to_string(steps) + ", finite differences" +
-                      (jacobians == Jacobians::kReused ? ", one Jacobian" : "")),
+                      (jacobians == Jacobians::kReused ? ", one Jacobian" : "") +
+                      (jacobians == Jacobians::kDamped ? ", Levenberg" : "")),
       chain_(scene), jacobians_(jacobians), steps_(steps) {}
 
 Vector6 CommonPractice::shoot(const Vector6& base_wrench, const Wrench& tip_wrench, RodState& tip) const {
@@ -44,8 +46,10 @@ void CommonPractice::findJacobian(const Vector6& base_wrench, const Wrench& tip_
   inverse_jacobian_ = jacobian.inverse();
 }
 
-// Newton's method; with the Jacobian as it is unless fresh ones are asked for.
+// Newton's method (with the Jacobian as it is unless fresh ones are asked for), or Levenberg's.
 bool CommonPractice::iterate(const Wrench& tip_wrench, Vector6& base_wrench, RodState& tip, bool fresh_jacobians) {
+  if (jacobians_ == Jacobians::kDamped)
+    return levenbergMarquardt([&](const Vector6& guess) { return shoot(guess, tip_wrench, tip); }, kTolerance, base_wrench);
   double last = 1e300;
   for (int iteration = 0; iteration < 30; ++iteration) {
     const Vector6 residual = shoot(base_wrench, tip_wrench, tip);

@@ -1,8 +1,9 @@
 #pragma once
 // Common practice in rod code: rotation matrices, RK4, shooting on the base wrench (six unknowns) with a Jacobian of
 // forward differences, compliance by solving again under six small tip wrenches. With fixed-size matrices and a quick
-// rate, in two forms: as it is commonly written, with a fresh Jacobian in every iteration; and with all that can be
-// saved, where the one Jacobian of a solve serves the six solves for the compliance and the next update.
+// rate, in three forms: as it is commonly written, with a fresh Jacobian in every iteration; with all that can be saved, where
+// the one Jacobian of a solve serves the six solves for the compliance and the next update; and by Levenberg's method, in the
+// style of Till's optimised examples (ContinuumRobotExamples, CSG_IK_Speedup).
 
 #include "benchmark/methods/rk4.h"
 #include "benchmark/methods/stiffness_method.h"
@@ -13,7 +14,7 @@ class CommonPractice : public StiffnessMethod {
  public:
   static constexpr int kSteps = 50;
 
-  enum class Jacobians { kFresh, kReused };
+  enum class Jacobians { kFresh, kReused, kDamped };
 
   // steps: of each segment, even.
   CommonPractice(const Scene& scene, Jacobians jacobians, int steps = kSteps);

@@ -35,12 +35,13 @@ double accuracyOfStages(int stages) {
 
 std::vector<MethodEntry> methodList() {
   std::vector<MethodEntry> list;
-  list.push_back({"textbook", "N=100", 100, maker<Textbook>(100)});
-  const auto common_practice = [](CommonPractice::Jacobians jacobians) {
+  list.push_back({"textbook (Till)", "N=100", 100, maker<Textbook>(100)});
+  const auto common_practice = [](CommonPractice::Jacobians jacobians, int steps = CommonPractice::kSteps) {
     return [=](const Scene& scene) -> std::unique_ptr<StiffnessMethod> {
-      return std::make_unique<CommonPractice>(scene, jacobians);
+      return std::make_unique<CommonPractice>(scene, jacobians, steps);
     };
   };
+  list.push_back({"optimised (Till)", "N=20", 20, common_practice(CommonPractice::Jacobians::kDamped, 20)});
   list.push_back({"common practice", "N=50", 50, common_practice(CommonPractice::Jacobians::kFresh)});
   list.push_back({"common practice (tuned)", "N=50", 50, common_practice(CommonPractice::Jacobians::kReused)});
   for (int steps : {10, 20, 50, 100})

@@ -2,12 +2,12 @@
 
 #include <Eigen/Geometry>
 
+#include "benchmark/methods/levenberg_marquardt.h"
 #include "benchmark/methods/material_sum.h"
 
 namespace live_stiffness {
 namespace {
 
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 VectorXd packed(const RodState& state) {
@@ -70,22 +70,13 @@ VectorXd Textbook::residual(const VectorXd& tip, const VectorXd& tip_wrench) con
   return result;
 }
 
-bool Textbook::newton(const VectorXd& tip_wrench, VectorXd& base_wrench, States& states) const {
-  constexpr double kStep = 1e-6, kTolerance = 1e-11;  // N
-  for (int iteration = 0; iteration < 20; ++iteration) {
-    states = shoot(base_wrench);
-    const VectorXd r = residual(states.back(), tip_wrench);
-    if (r.norm() < kTolerance) return true;
-    MatrixXd jacobian(6, 6);
-    for (int i = 0; i < 6; ++i) {
-      const double step = i < 3 ? kStep : kStep * chain_.length();
-      VectorXd moved = base_wrench;
-      moved[i] += step;
-      jacobian.col(i) = (residual(shoot(moved).back(), tip_wrench) - r) / step;
-    }
-    base_wrench -= jacobian.partialPivLu().solve(r);
-  }
-  return false;
+bool Textbook::iterate(const VectorXd& tip_wrench, VectorXd& base_wrench, States& states) const {
+  constexpr double kTolerance = 1e-11;  // N
+  const auto shot = [&](const VectorXd& guess) {
+    states = shoot(guess);
+    return residual(states.back(), tip_wrench);
+  };
+  return levenbergMarquardt(shot, kTolerance, base_wrench);
 }
 
 StiffnessSolution Textbook::solve(PressuresRef pressures) {
@@ -94,14 +85,14 @@ StiffnessSolution Textbook::solve(PressuresRef pressures) {
   if (!chain_.setPressures(pressures)) return solution;
   if (base_wrench_.size() == 0) base_wrench_ = (VectorXd(6) << chain_.weight(), Vector3::Zero()).finished();
   States states, bent_states;
-  bool converged = newton(VectorXd::Zero(6), base_wrench_, states);
+  bool converged = iterate(VectorXd::Zero(6), base_wrench_, states);
   const RodState tip = unpacked(states.back());
   solution.X_BT = tip.X;
   for (int i = 0; i < 6 && converged; ++i) {
     const double step = i < 3 ? 1e-5 : 1e-5 * chain_.length();
     VectorXd tip_wrench = VectorXd::Zero(6), base_wrench = base_wrench_;
     tip_wrench[i] = step;
-    converged = newton(tip_wrench, base_wrench, bent_states);
+    converged = iterate(tip_wrench, base_wrench, bent_states);
     const RodState bent = unpacked(bent_states.back());
     solution.compliance.col(i).head<3>() = (bent.X.p - tip.X.p) / step;
     solution.compliance.col(i).tail<3>() = logSo3(bent.X.R * tip.X.R.transpose()) / step;

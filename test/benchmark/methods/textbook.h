@@ -1,8 +1,7 @@
 #pragma once
-// Common practice in its textbook form: the state as one long vector of run-time size, 100 steps, a fresh Jacobian of
-// forward differences in every iteration, and every one of the six solves for the compliance from scratch.
-
-#include <Eigen/LU>
+// Common practice in its textbook form, in the style of Till's tutorials (ContinuumRobotExamples): the state as one long vector
+// of run-time size, 100 steps, shooting on the base wrench by Levenberg's method with forward differences. The compliance takes
+// six more solves, each under a small tip wrench.
 
 #include "benchmark/methods/loaded_chain.h"
 #include "benchmark/methods/stiffness_method.h"
@@ -20,7 +19,7 @@ class Textbook : public StiffnessMethod {
   using States = std::vector<Eigen::VectorXd>;  // [p, R by columns, n, m] at every step of every segment, then at T
   States shoot(const Eigen::VectorXd& base_wrench) const;
   Eigen::VectorXd residual(const Eigen::VectorXd& tip, const Eigen::VectorXd& tip_wrench) const;
-  bool newton(const Eigen::VectorXd& tip_wrench, Eigen::VectorXd& base_wrench, States& states) const;
+  bool iterate(const Eigen::VectorXd& tip_wrench, Eigen::VectorXd& base_wrench, States& states) const;
 
   LoadedChain chain_;
   int steps_;
