@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "benchmark/methods/common_practice.h"
+#include "benchmark/methods/energy_minimum.h"
 #include "benchmark/methods/magnus.h"
 #include "benchmark/methods/method_list.h"
 #include "benchmark/methods/rk4_sensitivities.h"
@@ -86,6 +87,24 @@ TEST(Methods, ConvergeAtTheOrderOfTheirName) {
         scene.length());
     EXPECT_NEAR(common.pose, 4.0, kMargin);
     EXPECT_NEAR(common.material, 4.0, kMargin);
+    const SolutionErrors minimum =
+        orders([&](int n) { return EnergyMinimum(scene, n).solve(pressures); }, 8, exact, scene.length());
+    EXPECT_NEAR(minimum.pose, 2.0, kMargin);
+    EXPECT_NEAR(minimum.tangent, 2.0, kMargin);
+  }
+}
+
+// Links, a tip off the axis and oblique gravity, from cold and from the last solution.
+TEST(Methods, MinimiseTheEnergyOfAnyChain) {
+  const Scene scene = awkwardScene();
+  const std::vector<Pressures> path = pressurePath(2);
+  const std::vector<StiffnessSolution> exact = exactSolutions(scene, path);
+  EnergyMinimum method(scene, 64);
+  for (size_t i = 0; i < path.size(); i += 16) {
+    const StiffnessSolution solution = method.solve(path[i]);
+    ASSERT_TRUE(solution.status.ok()) << i;
+    const SolutionErrors errors = errorsOf(solution, exact[i], scene.length());
+    EXPECT_LT(std::max(errors.pose, errors.tangent), 1e-3) << i;  // 64^-2 and a constant
   }
 }
 

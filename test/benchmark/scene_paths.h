@@ -9,12 +9,9 @@
 
 namespace live_stiffness {
 
-// Segments of paper_one_segment.yaml, hanging, with a link of 6 mm between any two and the paper's tip mass.
-Scene hangingChain(int segments);
-
 // A closed path of 128 pressures, up and down between 0.4 and 0.75 bar in steps of 1 %, with one pair (of each segment)
-// at 60 % of the first. alternating: every other segment bends the other way.
-std::vector<Pressures> pressurePath(int segments, bool alternating = false);
+// at 60 % of the first.
+std::vector<Pressures> pressurePath(int segments);
 
 // A closed path of 10 000 pressures of one segment, always the same: each pair goes up or down by 1 %, at random, between
 // 0.1 and 0.75 bar; back the way it came.
@@ -34,8 +31,9 @@ SolutionErrors errorsOf(const Solution& solution, const Exact& exact, double len
           complianceError(solution.material_compliance, exact.material_compliance, length)};
 }
 
-// The library's solution of each pressure at accuracy 1e-12, cold. A scene without weight is solved as a boundary value
+// The library's solution of each pressure, by default at accuracy 1e-12, cold. A scene without weight is solved as a boundary value
 // problem, so that the closed form is not compared with itself.
-std::vector<StiffnessSolution> exactSolutions(const Scene& scene, const std::vector<Pressures>& path);
+std::vector<StiffnessSolution> exactSolutions(const Scene& scene, const std::vector<Pressures>& path,
+                                              double accuracy = 1e-12);
 
 }  // namespace live_stiffness

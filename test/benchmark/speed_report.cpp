@@ -3,7 +3,6 @@
 //
 //   methods.csv        every method, one and two segments, with and without gravity, cold and warm
 //   stations.csv       the library with 5 and 25 stations of material compliance
-//   segments.csv       cost against the number of segments
 //   distribution.csv   histograms of single warm updates (accuracy 1e-6) and of one again and again;
 //                      distribution_summary.csv: quantiles
 //   estimates.csv      error estimate against true error over random scenes; estimate_summary.csv: shares
@@ -110,35 +109,6 @@ void reportStations(const std::string& folder, const Effort& effort) {
     csv.row(variants[k].first, variants[k].second, quantile(methods[k].samplesUs(), 0.5));
 }
 
-// The chain hangs and its segments bend to and fro, so that any number of them is stable.
-void reportSegments(const std::string& folder, const Effort& effort) {
-  CsvFile csv(folder, "segments.csv", "family,variant,segments,start,converged,median_us,p99_us,error_max");
-  std::vector<MethodEntry> entries;
-  for (const MethodEntry& entry : methodList())
-    if ((entry.family == "library") || (entry.family == "RK4 with sensitivities" && entry.resolution == 20) ||
-        (entry.family == "Magnus 6" && entry.resolution == 2) || entry.family == "common practice")
-      entries.push_back(entry);
-  for (int segments = 1; segments <= 8; ++segments) {
-    progress("segments: " + std::to_string(segments) + " of 8");
-    const Scene scene = hangingChain(segments);
-    const std::vector<Pressures> path = pressurePath(segments, true);
-    const std::vector<StiffnessSolution> exact = exactSolutions(scene, path);
-    for (bool cold : {false, true}) {
-      std::vector<TimedMethod> methods;
-      std::vector<PathErrors> errors;
-      for (const MethodEntry& entry : entries) {
-        methods.emplace_back(entry.make(scene), path, cold);
-        errors.push_back(errorsAlong(methods.back(), exact, scene.length()));
-      }
-      measureInTurns(methods, effort);
-      for (size_t k = 0; k < entries.size(); ++k)
-        csv.row(entries[k].family, entries[k].variant, segments, cold ? "cold" : "warm", int(methods[k].converged()),
-                quantile(methods[k].samplesUs(), 0.5), quantile(methods[k].samplesUs(), 0.99),
-                errors[k].maximum.largest());
-    }
-  }
-}
-
 void writeQuantiles(CsvFile& csv, const std::string& which, std::vector<float>& us, long preempted) {
   const double median = quantile(us, 0.5), p99 = quantile(us, 0.99), p999 = quantile(us, 0.999);
   csv.row(which, us.size(), preempted, median, quantile(us, 0.9), p99, p999, quantile(us, 1.0), p99 / median,
@@ -242,7 +212,6 @@ void run(const std::string& folder, const Effort& effort) {
   reportDistribution(folder, effort);
   reportMethods(folder, effort);
   reportStations(folder, effort);
-  reportSegments(folder, effort);
   reportEstimates(folder, effort);
 }
 
