@@ -1,4 +1,4 @@
-"""Reading the CSV files of speed_report, finding rows in them, and printing numbers and tables."""
+"""Reading the CSV files of speed_report and chain_report, finding rows in them, and printing numbers and tables."""
 import csv
 import os
 
@@ -48,6 +48,11 @@ def pareto(rows):
             front.append(row)
             best = largest_error(row)
     return front
+
+
+# --- Rows of chains.csv -----------------------------------------------------------------------------------------------
+def chain_methods(chains):
+    return list(dict.fromkeys(row["method"] for row in chains))
 
 
 # --- Printing ---------------------------------------------------------------------------------------------------------

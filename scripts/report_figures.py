@@ -8,7 +8,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-from report_data import largest_error, panel, pareto
+from report_data import chain_methods, largest_error, panel, pareto
 
 plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "live_stiffness", "font.size": 9, "axes.grid": True,
                      "grid.color": "#e6e6e6", "axes.axisbelow": True, "axes.spines.top": False,
@@ -24,7 +24,9 @@ STYLE = {
     "RK4 with sensitivities": ("#2a9134", "s", 1.2),
     "common practice (tuned)": ("#8d6b94", "P", 1.2),
     "common practice": ("#222222", "X", 1.2),
-    "textbook": ("#888888", "*", 1.2),
+    "optimised (Till)": ("#bc6c25", "p", 1.2),
+    "textbook (Till)": ("#888888", "*", 1.2),
+    "energy minimiser": ("#3a86ff", "^", 1.2),
 }
 
 
@@ -126,19 +128,22 @@ def histogram(bins, summary, folder):
     save(figure, folder, "update_times")
 
 
-def against_segments(rows, folder):
+def against_segments(chains, folder):
     figure, axes = plt.subplots(1, 2, figsize=(9.2, 3.6), sharey=True, layout="constrained")
-    for ax, start in zip(axes, ("warm", "cold")):
-        for family, members in families([row for row in rows if row["start"] == start and row["converged"] == 1]):
-            variants = list(collections.OrderedDict.fromkeys(row["variant"] for row in members))
-            for k, variant in enumerate(variants):
-                line = [row for row in members if row["variant"] == variant]
-                colour, marker, width = STYLE[family]
-                ax.plot([row["segments"] for row in line], [row["median_us"] for row in line], color=colour,
-                        marker=marker, linewidth=width, markersize=5, alpha=1.0 - 0.3 * k,
-                        linestyle=("-", "--", ":")[k % 3], label="%s, %s" % (family, variant))
+    for ax, posture in zip(axes, ("hanging", "standing")):
+        for method in chain_methods(chains):
+            colour, marker, width = STYLE[method]
+            for start, line in (("warm", "-"), ("cold", "--")):
+                rows = [row for row in chains if row["solved"] > 0 and
+                        (row["posture"], row["start"], row["method"]) == (posture, start, method)]
+                ax.plot([row["segments"] for row in rows], [row["median_us"] for row in rows], color=colour,
+                        marker=marker, linewidth=width, linestyle=line, markersize=5, label="%s, %s" % (method, start))
+        counts = sorted({int(row["segments"]) for row in chains})
+        ax.set_xscale("log")
         ax.set_yscale("log")
-        ax.set_xlabel("segments, " + start)
+        ax.set_xticks(counts, [str(count) for count in counts])
+        ax.minorticks_off()
+        ax.set_xlabel("segments, " + posture)
     axes[0].set_ylabel("time of an update, us (median)")
     legend_above(figure, axes, 3)
     save(figure, folder, "against_segments")

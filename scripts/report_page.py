@@ -9,7 +9,7 @@ import sys
 
 import report_figures as figures
 import report_targets
-from report_data import largest_error, library, method, named, number, panel, read, small, table, us
+from report_data import chain_methods, largest_error, library, method, named, number, panel, read, small, table, us
 
 
 def machine():
@@ -57,6 +57,36 @@ def all_methods(rows):
             parts.append("<details%s><summary>%s</summary>\n\n%s\n\n</details>" % (
                 " open" if not parts else "", title, table(head, lines)))
     return "\n\n".join(parts)
+
+
+def chain_cell(row, is_library):
+    if row["solved"] == 0:
+        return "fails"
+    time = " / ".join(us(row[key]) for key in (("median_us", "p99_us", "max_us") if is_library else ("median_us",)))
+    return time if row["solved"] == row["tried"] else "%s (%.0f %%)" % (time, 100 * row["solved"] / row["tried"])
+
+
+def chain_table(chains):
+    """A line for each method and path, a column for each number of segments."""
+    counts = sorted({row["segments"] for row in chains})
+    lines = []
+    for posture, start in dict.fromkeys((row["posture"], row["start"]) for row in chains):
+        for name in chain_methods(chains):
+            line = [row for row in chains if (row["posture"], row["start"], row["method"]) == (posture, start, name)]
+            by_count = {row["segments"]: row for row in line if row["solved"] > 0}
+            one, most = by_count.get(counts[0]), by_count.get(counts[-1])
+            ratio = "%.2f" % (most["median_us"] / one["median_us"] * counts[0] / counts[-1]) if one and most else ""
+            lines.append([posture, start, name] + [chain_cell(row, name == "library") for row in line] +
+                         [ratio, small(max(row["error_max"] for row in by_count.values())) if by_count else ""])
+    return table(["", "", ""] + ["%d" % count for count in counts] +
+                 ["a segment, %d over %d" % (counts[-1], counts[0]), "largest error"], lines)
+
+
+def chain_failures(chains):
+    """How often the library did not solve, how often what it solved missed the accuracy, and of how many."""
+    ours = [row for row in chains if row["method"] == "library"]
+    tried, solved, accurate = (sum(row[key] for row in ours) for key in ("tried", "solved", "accurate"))
+    return {"chain_failed": "%d" % (tried - solved), "chain_missed": "%d" % (solved - accurate), "chain_tried": "%d" % tried}
 
 
 def quantiles(distribution):
@@ -109,18 +139,19 @@ def hard_cases(data, folder):
 def main():
     data, output = sys.argv[1], sys.argv[2]
     folder = os.path.join(output, "figures")
-    rows, segments, stations = read(data, "methods"), read(data, "segments"), read(data, "stations")
+    rows, chains, stations = read(data, "methods"), read(data, "chains"), read(data, "stations")
     shares, build = read(data, "estimate_summary")[0], read(data, "build", ";")[0]
     distribution = {row["which"]: row for row in read(data, "distribution_summary")}
     for start in ("warm", "cold"):
         figures.error_against_time(rows, start, folder)
     figures.histogram(read(data, "distribution"), distribution["updates"], folder)
-    figures.against_segments(segments, folder)
+    figures.against_segments(chains, folder)
     figures.against_elements(rows, folder)
     figures.estimates(read(data, "estimates"), folder)
 
     targets = report_targets.by_accuracy(rows) + report_targets.others(rows, stations, distribution, shares)
     common, tuned, fast = method(rows, "common practice"), method(rows, "common practice (tuned)"), library(rows, 1e-6)
+    textbook, optimised = method(rows, "textbook (Till)"), method(rows, "optimised (Till)")
     counts = {key: "%d" % shares[key] for key in
               ("cases", "solved", "loaded", "out_of_range", "unstable", "not_converged")}
     with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "report_template.md")) as file:
@@ -133,7 +164,9 @@ def main():
         common_ratio="%.0f" % (common["median_us"] / fast["median_us"]),
         tuned_ratio="%.0f" % (tuned["median_us"] / fast["median_us"]),
         library_error=small(fast["tangent_max"]), common_error=small(common["tangent_max"]),
-        textbook_us=us(method(rows, "textbook (Till)")["median_us"]), all_methods=all_methods(rows),
+        textbook_us=us(textbook["median_us"]), textbook_ratio="%.0f" % (textbook["median_us"] / fast["median_us"]),
+        optimised_us=us(optimised["median_us"]), optimised_ratio="%.0f" % (optimised["median_us"] / fast["median_us"]),
+        chains=chain_table(chains), **chain_failures(chains), all_methods=all_methods(rows),
         updates="%d" % distribution["updates"]["updates"], quantiles=quantiles(distribution),
         preemptions="%d" % distribution["updates"]["preemptions"],
         repeat_preemptions="%d" % distribution["repeats"]["preemptions"],
