@@ -1,5 +1,5 @@
-// chain_report FOLDER [--quick]: the cost of an update against the number of segments, of the library and of two other methods, into
-// FOLDER/chains.csv. Under two minutes.
+// chain_report FOLDER [--quick]: the cost of an update against the number of segments, of the library and of two others, into
+// FOLDER/chains.csv. Under two minutes of processor time.
 //
 // Chains of paper_one_segment.yaml without links, with its tip mass.
 //   hanging   any number of them is stable. Pressures to 0.6 bar.

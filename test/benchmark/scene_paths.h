@@ -31,8 +31,8 @@ SolutionErrors errorsOf(const Solution& solution, const Exact& exact, double len
           complianceError(solution.material_compliance, exact.material_compliance, length)};
 }
 
-// The library's solution of each pressure, by default at accuracy 1e-12, cold. A scene without weight is solved as a boundary value
-// problem, so that the closed form is not compared with itself.
+// The library's solution of each pressure, by default at accuracy 1e-12, cold. A scene without weight is solved as a boundary
+// value problem, so that the closed form is not compared with itself.
 std::vector<StiffnessSolution> exactSolutions(const Scene& scene, const std::vector<Pressures>& path,
                                               double accuracy = 1e-12);
 

@@ -1,7 +1,7 @@
 #pragma once
 // The equilibrium as minimum of the potential energy over the rotations of many sections (support/chain_energy.h): Newton's
-// method downhill, at full load, with a block-tridiagonal Hessian that is shifted where it is not positive, and the step length by
-// the energy. Of second order in the distance of the sections; nothing is extrapolated.
+// method downhill, at full load, with a block-tridiagonal Hessian that is shifted where it is not positive, and the step length
+// by the energy. Of second order in the distance of the sections; nothing is extrapolated.
 
 #include "benchmark/methods/loaded_chain.h"
 #include "benchmark/methods/stiffness_method.h"
