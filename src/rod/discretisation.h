@@ -20,6 +20,9 @@ class Discretisation {
   bool chooseUnloaded(const Backbone& backbone);
   void apply(Backbone& backbone) const { backbone.resize(count_, stages_); }
 
+  // Bending that the rest states and loads of the last choose() let expect of each segment, rad, whatever the accuracy.
+  const std::vector<double>& demand() const { return demand_; }
+
   // Makes choose() limit the bending of an element further, for more reliable convergence.
   void shorten() { most_ = kShort; }
 

@@ -25,10 +25,19 @@ NodalRotations::NodalRotations(const Chain& chain) {
 }
 
 void NodalRotations::resize(const Backbone& backbone, int each) {
-  int count = 1;
+  for (size_t k = 0; k < intervals.size(); ++k) intervals[k] = std::min(kMostIntervals, each * backbone.element_count[k]);
+  makeNodes();
+}
+
+void NodalRotations::resize(const std::vector<double>& demand, double spacing) {
+  constexpr double kLeast = 2.0;
   for (size_t k = 0; k < intervals.size(); ++k)
-    count += intervals[k] = std::min(kMostIntervals, each * backbone.element_count[k]);
-  R.resize(count);
+    intervals[k] = static_cast<int>(std::ceil(std::min<double>(kMostIntervals, std::max(kLeast, demand[k] / spacing))));
+  makeNodes();
+}
+
+void NodalRotations::makeNodes() {
+  R.resize(1 + std::accumulate(intervals.begin(), intervals.end(), 0));
   R[0].setIdentity();
 }
 

@@ -18,9 +18,11 @@ struct NodalRotations {
   explicit NodalRotations(const Chain& chain);
   static constexpr int kMostIntervals = 2 * Backbone::kMaxElements;  // of a segment
 
-  // As many intervals as elements of the backbone times `each`, as far as there is room.
+  // As many intervals as elements of the backbone times `each`, or so many that none bends by more than `spacing`, rad, if the
+  // segments bend by `demand`; as far as there is room.
   void resize(const Backbone& backbone, int each);
-  // The shape that the elements of the backbone hold; of rest states alone if `unloaded`.
+  void resize(const std::vector<double>& demand, double spacing);
+  // The shape that the elements of the backbone hold, or that of its rest states alone.
   void take(const Backbone& backbone);
   void takeUnloaded(const Chain& chain, const Backbone& backbone);
   // Start orientations and nodes of the elements.
@@ -29,6 +31,7 @@ struct NodalRotations {
   double bending(int segment) const;
 
  private:
+  void makeNodes();
   Matrix3 at(int first, int intervals, double fraction) const;
 };
 

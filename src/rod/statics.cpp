@@ -7,6 +7,7 @@
 namespace live_stiffness {
 namespace {
 
+constexpr double kNodes = 0.6, kFineNodes = 0.2;  // rad, between nodes of a descent
 constexpr double kLargestDirect = 2.5;  // normalised load up to which a cold start needs no descent
 
 }  // namespace
@@ -90,7 +91,8 @@ bool StaticsSolver::guess(Start start, const DeadLoads& loads, Backbone& backbon
     return once.is_admissible;
   }
   prepare(chain_, loads, backbone);
-  shape_.resize(backbone, start == Start::kFineDescent ? 8 : 2);
+  // The same nodes for every accuracy, so that all end in the same valley.
+  shape_.resize(discretisation_.demand(), start == Start::kFineDescent ? kFineNodes : kNodes);
   shape_.takeUnloaded(chain_, backbone);
   const EnergyDescent::End end = descent_.run(loads, backbone.rest, 1.0 / normalised_load_, shape_);
   neutral_ = end == EnergyDescent::End::kNeutral;
