@@ -60,7 +60,9 @@ struct Joints {
       M_inverse.copyTo(e.pivot_inverse);
       if (k == 0) break;
       const Three A = Three::ofColumns(t.phi + kOfRotation), C = Three::ofColumns(t.m + kOfRotation);
-      S = M_inverse * (clamped_end ? Three{} - A : S * A - C);
+      S = S * A - C;
+      if (clamped_end) S = Three{} - A;
+      S = M_inverse * S;
       S.copyTo(e.stiffness);
     }
     return unstable;
