@@ -158,8 +158,7 @@ bool Discretisation::refine(double buckling_factor, const Backbone& backbone) {
   }
   hysteresis_count_ = wanting || !easier ? kHysteresisCount : hysteresis_count_ - 1;
   if (hysteresis_count_ == 0) {
-    count_.assign(demand_.size(), 1);
-  safety_factor_ = seen_safety_factor_;
+    safety_factor_ = seen_safety_factor_;
     hysteresis_count_ = kHysteresisCount;
   }
   return wanting && chooseForDemand(backbone);

@@ -16,7 +16,7 @@ struct StaticsReport {
   bool stable = false;         // the second variation of the energy is positive definite; false: unstable, or neutral (a
                                // symmetric column that may lean in any direction)
   double stable_share = 1.0;   // if not stable: share of the loads up to which there is a stable equilibrium nearby
-  int iterations = 0;          // over the chain, all attempts together, at most kMaxIterations
+  int iterations = 0;          // over the chain, all attempts together, at most kMaxIterations; without those of stable_share
   double residual = 0.0;       // of the moments, as bending of the most compliant segment over its length, rad
   double truncation = 0.0;     // estimated relative error of discretisation
   double iteration = 0.0;      // estimated relative error of shape and sensitivities after their last iterations
@@ -36,9 +36,9 @@ class StaticsSolver {
 
   // Solves from backbone.rest. On success the backbone holds the shape, and the tangent can be read. Never allocates.
   //
-  // A cold start (the first one, or after reset()) begins with the shape without loads. Where the loads allow one equilibrium
-  // only, Newton's method goes from there; else the robot first moves downhill in energy under its full loads, and the result is
-  // the stable equilibrium in whose valley that ends. A warm start begins with the last solution and stays on its branch while
+  // A cold start (the first one, or after reset()) begins with the shape without loads. Where the loads are small enough,
+  // Newton's method goes from there, and what it finds is taken if it is stable; else the robot first moves downhill in energy
+  // while its loads grow, and the result is the stable equilibrium in whose valley that ends. A warm start begins with the last solution and stays on its branch while
   // that is stable, as the robot does, even where a cold start would find another one: which of several stable shapes a robot
   // has depends on its past.
   StaticsReport solve(const DeadLoads& loads, Backbone& backbone);
