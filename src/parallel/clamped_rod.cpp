@@ -99,7 +99,12 @@ bool ClampedRod::integrate() {
 
 double ClampedRod::linearise(double goal) {
   const ChainState chain = stateOf(chain_, loads(), load_.tail<3>(), backbone_);
-  const auto [left, unstable] = backbone_.kernel->linearise(chain, {4.0 * goal, !has_sensitivities_, true, false, true});
+  // Each element's sensitivities are judged by their own size, which is smaller than that of the whole rod's.
+  constexpr double kOfElement = 4.0;
+  Linearisation how{kOfElement * goal};
+  how.cold = !has_sensitivities_;
+  how.with_force = how.clamped = true;
+  const auto [left, unstable] = backbone_.kernel->linearise(chain, how);
   has_sensitivities_ = std::isfinite(left);
   if (!has_sensitivities_) return left;
   unstable_ = unstable;

@@ -52,11 +52,11 @@ struct MarchResult {
 };
 
 struct Linearisation {
-  double goal;        // relative error of the sensitivities at which iterations stop
-  bool cold;          // without a guess
-  bool with_force;    // also those by a force, for tangent()
-  bool with_adjoint;  // also the adjoint-weighted residual, with which the error of the compliance is of order goal squared
-  bool clamped;       // T cannot turn
+  double goal;                // relative error of the sensitivities at which iterations stop
+  bool cold = true;           // without a guess
+  bool with_force = false;    // also those by a force, for tangent()
+  bool with_adjoint = false;  // also the adjoint-weighted residual, with which the compliance's error is of order goal squared
+  bool clamped = false;       // T cannot turn
 };
 struct LinearisationResult {
   double left;   // largest relative error of the sensitivities of an element; infinity if one did not converge

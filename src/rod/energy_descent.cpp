@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "live_stiffness/lie/so3.h"
+#include "lie/cayley.h"
 
 namespace live_stiffness {
 namespace {
@@ -14,7 +14,8 @@ constexpr double kLongestStep = 0.7;     // rad a node
 constexpr double kConverged = 1e-2;      // rad; less than what the distance of the nodes leaves
 constexpr double kFollowed = 0.1;        // rad; on the way to the full loads
 constexpr double kNearlyNeutral = 0.1;   // least pivot below which it is found out whether it is zero
-constexpr double kFullyConverged = 1e-9, kNeutral = 1e-7, kRounding = 1e-10;
+constexpr double kFullyConverged = 1e-9;  // rad; by then the pivot is known to kNeutral
+constexpr double kNeutral = 1e-7, kRounding = 1e-10;  // eigenvalues of a pivot by its largest: as good as zero, and zero
 constexpr double kPush = 0.3;  // rad, off an equilibrium that is not stable
 
 // Derivative of the Cayley vector c of A^T B by a small turn of B, in axes of B; of A it is minus the transpose.

@@ -1,5 +1,5 @@
 #pragma once
-// Which equilibrium: from a shape downhill in potential energy, at full load, to a stable one. See docs/derivation.md, section 4.
+// Which equilibrium: from a shape downhill in potential energy to a stable one. See docs/derivation.md, section 4.
 
 #include "rod/nodal_rotations.h"
 

@@ -4,19 +4,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "live_stiffness/lie/so3.h"
+#include "lie/cayley.h"
 
 namespace live_stiffness {
-
-Vector3 cayleyVector(const Matrix3& R) {
-  return 2.0 / (1.0 + R.trace()) * Vector3(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
-}
-
-Matrix3 cayleyRotation(const Vector3& g) {
-  const double k = 4.0 / (4.0 + g.squaredNorm());
-  const Matrix3 x = hat(g);
-  return Matrix3::Identity() + k * (x + 0.5 * x * x);
-}
 
 NodalRotations::NodalRotations(const Chain& chain) {
   for (const Chain::Part& part : chain.parts)

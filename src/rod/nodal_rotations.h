@@ -6,10 +6,6 @@
 
 namespace live_stiffness {
 
-// Cayley vector 2 tan(angle / 2) axis of a rotation below half a turn, and the rotation.
-Vector3 cayleyVector(const Matrix3& R);
-Matrix3 cayleyRotation(const Vector3& g);
-
 struct NodalRotations {
   std::vector<int> intervals;  // of each segment
   std::vector<Matrix3> R;      // orientations in B: node 0 is the base, neighbouring segments share a node

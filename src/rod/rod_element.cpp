@@ -38,13 +38,6 @@ Pose RodElement::X_start() const { return {matrixOf(state.R_start), p_start()}; 
 
 Pose RodElement::X_end() const { return {matrixOf(state.R_end), p_start() + Vector3(state.offset_end)}; }
 
-Pose RodElement::X(int node) const {
-  Pose X;
-  for (int i = 0; i < 9; ++i) X.R(i / 3, i % 3) = state.R[i][node];
-  for (int i = 0; i < 3; ++i) X.p[i] = state.p_start[i] + state.offset[i][node];
-  return X;
-}
-
 Vector3 RodElement::g_end(int stages) const { return {state.g[0][stages], state.g[1][stages], state.g[2][stages]}; }
 
 double RodElement::bending(int stages) const {

@@ -25,7 +25,6 @@ struct RodElement {
   Pose X_end() const;
   Vector3 n_end() const { return Vector3(state.n_end); }
   Vector3 m_end() const { return Vector3(state.m_end); }
-  Pose X(int node) const;  // in B
   Vector3 g_end(int stages) const;   // Cayley vector between its ends
   double bending(int stages) const;  // about the angle between its ends, rad
 };

@@ -84,11 +84,6 @@ MarchResult march(const Chain& chain, const DeadLoads& loads, const Vector3& bas
   return result;
 }
 
-void placeUnloaded(const Chain& chain, Backbone& backbone) {
-  prepare(chain, DeadLoads(), backbone);
-  march(chain, DeadLoads(), Vector3::Zero(), MarchMode::kUnloaded, backbone);
-}
-
 bool shoot(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, bool nodes_hold_guess,
            Backbone& backbone, Vector3& residual) {
   constexpr int kMaxIterations = 100;

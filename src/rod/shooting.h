@@ -24,10 +24,6 @@ void prepare(const Chain& chain, const DeadLoads& loads, Backbone& backbone, His
 // Walks from base to tip with the given base moment; sets X_BT.
 MarchResult march(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, MarchMode mode, Backbone& backbone);
 
-// Closed-form shape of a chain on which nothing external acts: constant strain per segment (6), exact. Fills elements,
-// guess and X_BT from backbone.rest and the number of elements and stages that the backbone has.
-void placeUnloaded(const Chain& chain, Backbone& backbone);
-
 // Iterates until the shape has converged to rounding. False if it does not converge or is not admissible; then the nodes hold
 // no guess.
 bool shoot(const Chain& chain, const DeadLoads& loads, const Vector3& base_moment, bool nodes_hold_guess,

@@ -7,7 +7,7 @@
 namespace live_stiffness {
 namespace {
 
-constexpr double kNodes = 0.6, kFineNodes = 0.2;  // rad, between nodes of a descent
+constexpr double kNodes = 0.6, kFineNodes = 0.05;  // rad, between nodes of a descent; the second where the first does not do
 constexpr double kLargestDirect = 2.5;  // normalised load up to which a cold start needs no descent
 
 }  // namespace
@@ -131,6 +131,8 @@ bool StaticsSolver::solveCold(const DeadLoads& loads, Backbone& backbone, Static
     report.iterations = before;
     if (solveFrom(start, loads, backbone, report)) return true;
   }
+  // Forces alone always leave a minimum of the energy; so without a moment nothing stable is missing but where it is neutral.
+  report.converged = report.converged && (report.neutral || !angular(loads.tip).isZero(0.0));
   report.converged = report.converged || neutral_;
   report.stable = false;
   return false;

@@ -12,9 +12,10 @@
 namespace live_stiffness {
 
 struct StaticsReport {
-  bool converged = false;
+  bool converged = false;      // a stable equilibrium is found, or there is none; false: it is not known
   bool stable = false;         // the second variation of the energy is positive definite; false: unstable, or neutral (a
                                // symmetric column that may lean in any direction)
+  bool neutral = false;        // no digit of the tip's compliance is left, see isNeutral() in stability.h
   double stable_share = 1.0;   // if not stable: share of the loads up to which there is a stable equilibrium nearby
   int iterations = 0;          // over the chain, all attempts together, at most kMaxIterations; without those of stable_share
   double residual = 0.0;       // of the moments, as bending of the most compliant segment over its length, rad
@@ -38,9 +39,9 @@ class StaticsSolver {
   //
   // A cold start (the first one, or after reset()) begins with the shape without loads. Where the loads are small enough,
   // Newton's method goes from there, and what it finds is taken if it is stable; else the robot first moves downhill in energy
-  // while its loads grow, and the result is the stable equilibrium in whose valley that ends. A warm start begins with the last solution and stays on its branch while
-  // that is stable, as the robot does, even where a cold start would find another one: which of several stable shapes a robot
-  // has depends on its past.
+  // while its loads grow, and the result is the stable equilibrium in whose valley that ends. A warm start begins with the last
+  // solution and stays on its branch while that is stable, as the robot does, even where a cold start would find another one:
+  // which of several stable shapes a robot has depends on its past.
   StaticsReport solve(const DeadLoads& loads, Backbone& backbone);
 
   // Makes the backbone ready for solveUnloaded() of compliance/material_compliance.h, and forgets the last solution.

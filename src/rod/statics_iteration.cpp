@@ -37,6 +37,7 @@ bool StaticsSolver::linearise(const DeadLoads& loads, Linearisation how, Backbon
 bool StaticsSolver::converge(Start start, const DeadLoads& loads, int most_iterations, Backbone& backbone,
                              StaticsReport& report) {
   constexpr double kRounding = 1e-13, kStalled = 1e-8;  // rad
+  constexpr int kMostStalled = 3;
   const double goal = std::max(0.2 * accuracy_ / buckling_factor_, 1e-15);
   const ChainState chain = stateOf(chain_, loads, Vector3::Zero(), backbone);
   double last = kInfinity, last_left = kInfinity;
@@ -56,7 +57,7 @@ bool StaticsSolver::converge(Start start, const DeadLoads& loads, int most_itera
       last_sensitivities = i;
       LinearisationResult ignored;
       backbone.kernel->evaluate_all(chain);
-      if (!linearise(loads, {kCoarseSensitivities, false, false, false, false}, backbone, ignored)) return false;
+      if (!linearise(loads, {kCoarseSensitivities}, backbone, ignored)) return false;
     }
     // What the step turns the sections by is what the gaps along the whole chain amount to.
     const double left = std::max(error, backbone.kernel->correct(chain, now, kMostTurn));
@@ -73,7 +74,7 @@ bool StaticsSolver::converge(Start start, const DeadLoads& loads, int most_itera
     const double rate = i > 0 ? rate_ : std::max(rate_, 0.5 * kSlowestRate);
     // Rounding grows with the number of elements; what it leaves is part of the estimate.
     stalled += error > 0.3 * last && error < kStalled;
-    const bool at_rounding = (error <= kRounding && error > 0.3 * last) || stalled > 3;
+    const bool at_rounding = (error <= kRounding && error > 0.3 * last) || stalled > kMostStalled;
     report.iteration = at_rounding ? left : rate * left;
     last = error;
     last_left = left;
@@ -97,7 +98,10 @@ bool StaticsSolver::findTangent(const DeadLoads& loads, Backbone& backbone, Stat
   for (int attempt = 0; attempt < 2; ++attempt) {
     const double error_goal = std::max(goal / buckling_factor_, 1e-16);
     const double sensitivity_goal = self_adjoint ? std::sqrt(2.0 * error_goal / buckling_factor_) : error_goal;
-    if (!linearise(loads, {sensitivity_goal, false, true, self_adjoint, false}, backbone, result)) return false;
+    Linearisation how{sensitivity_goal};
+    how.with_force = true;
+    how.with_adjoint = self_adjoint;
+    if (!linearise(loads, how, backbone, result)) return false;
     backbone.kernel->tangent(&backbone.elements[0].state, count, self_adjoint, tangent_.data());
     if (!std::isfinite(tangent_.sum())) return false;
     buckling_factor_ =
@@ -110,8 +114,8 @@ bool StaticsSolver::findTangent(const DeadLoads& loads, Backbone& backbone, Stat
   report.truncation = discretisation_.truncation(backbone);
   report.buckling_factor = buckling_factor_;
   const double rotation = tangent_.bottomRightCorner<3, 3>().trace();
-  report.stable = result.unstable == 0 && !isNeutral(rotation / most_compliant_, report.relativeError()) &&
-                  (self_adjoint || isPositiveDefinite(tangent_));
+  report.neutral = result.unstable == 0 && isNeutral(rotation / most_compliant_, report.relativeError());
+  report.stable = result.unstable == 0 && !report.neutral && (self_adjoint || isPositiveDefinite(tangent_));
   return true;
 }
 

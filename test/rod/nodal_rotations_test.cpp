@@ -32,7 +32,8 @@ class BentChain {
       backbone_.rest[k].c.bending_torsion.diagonal() << 900.0, 1000.0, 1200.0;
     }
     backbone_.resize(count, stages);
-    placeUnloaded(chain_, backbone_);
+    prepare(chain_, DeadLoads(), backbone_);
+    march(chain_, DeadLoads(), Vector3::Zero(), MarchMode::kUnloaded, backbone_);
   }
   void solve() {
     DeadLoads loads;

@@ -16,7 +16,6 @@ Backbone shot(const BareRod& rod, const DeadLoads& loads, const Vector3& base_mo
   Backbone backbone = rod.backbone();
   const Chain chain(rod.scene);
   backbone.resize({count}, kMaxStages);
-  placeUnloaded(chain, backbone);
   prepare(chain, loads, backbone);
   Vector3 residual;
   EXPECT_TRUE(shoot(chain, loads, base_moment, false, backbone, residual));
