@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "lie/cayley.h"
 #include "live_stiffness/lie/so3.h"
 #include "rod/shooting.h"
 #include "support/matrix_near.h"
