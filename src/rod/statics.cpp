@@ -122,6 +122,9 @@ bool StaticsSolver::solveCold(const DeadLoads& loads, Backbone& backbone, Static
   reset();
   normalised_load_ = normalisedLoad(chain_, loads, backbone);
   neutral_ = false;
+  // Forces alone always leave a minimum of the energy; so without a moment nothing stable is missing but where it is neutral.
+  const bool has_moment = !angular(loads.tip).isZero(0.0);
+  bool none_is_stable = false;
   for (const Start start : {Start::kUnloaded, Start::kDescent, Start::kFineDescent}) {
     if (neutral_ || (start == Start::kUnloaded && !(normalised_load_ < kLargestDirect))) continue;
     if (start == Start::kFineDescent) discretisation_.shorten();
@@ -130,10 +133,9 @@ bool StaticsSolver::solveCold(const DeadLoads& loads, Backbone& backbone, Static
     report = StaticsReport();
     report.iterations = before;
     if (solveFrom(start, loads, backbone, report)) return true;
+    none_is_stable = none_is_stable || neutral_ || (report.converged && (report.neutral || has_moment));
   }
-  // Forces alone always leave a minimum of the energy; so without a moment nothing stable is missing but where it is neutral.
-  report.converged = report.converged && (report.neutral || !angular(loads.tip).isZero(0.0));
-  report.converged = report.converged || neutral_;
+  report.converged = none_is_stable;
   report.stable = false;
   return false;
 }
