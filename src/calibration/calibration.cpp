@@ -35,11 +35,11 @@ CalibrationProblem::Sigmas residualSigmas(CalibrationProblem& problem, size_t re
   for (size_t n = 0; n < recordings; ++n) {
     RecordingEvaluator& evaluator = problem.evaluator(n);
     const Registration registration = evaluator.registration(solution.unknowns.registrations[n]);
-    const std::vector<TipPrediction>* predictions = evaluator.at(solution.unknowns.x.data(), false);
+    const TipPredictions* predictions = evaluator.at(solution.unknowns.x.data(), false);
     if (predictions == nullptr) continue;
-    for (size_t i = 0; i < predictions->size(); ++i) {
+    for (size_t i = 0; i < predictions->X_BT.size(); ++i) {
       if (!evaluator.data().used[i]) continue;
-      const SampleErrors errors = errorsOf(registration, (*predictions)[i].X_BT, evaluator.data().recording.samples[i]);
+      const SampleErrors errors = errorsOf(registration, predictions->X_BT[i], evaluator.data().recording.samples[i]);
       positions.push_back(errors.position.norm());
       rotations.push_back(errors.rotation);
     }
@@ -56,12 +56,12 @@ void describeRecording(CalibrationProblem& problem, const CalibrationProblem::So
   const CalibrationRecording& data = evaluator.data();
   fit.name = data.recording.name;
   fit.registration = evaluator.registration(solution.unknowns.registrations[n]);
-  std::vector<TipPrediction> predictions;
+  std::vector<Pose> predictions;
   if (!evaluator.predictAll(solution.unknowns.x.data(), predictions))
     throw ConfigurationError("calibration of " + fit.name, {"a sample has no solution: " + evaluator.failure()});
   std::vector<double> used, quiet;
   for (size_t i = 0; i < predictions.size(); ++i) {
-    const SampleErrors errors = errorsOf(fit.registration, predictions[i].X_BT, data.recording.samples[i]);
+    const SampleErrors errors = errorsOf(fit.registration, predictions[i], data.recording.samples[i]);
     fit.position_error.push_back(errors.position.norm());
     fit.rotation_error.push_back(errors.rotation);
     fit.position_residual.push_back(fit.registration.X_AB.R.transpose() * errors.position);
@@ -139,12 +139,12 @@ CalibrationResult calibrate(const Scene& scene, const ChannelMap& channels,
       const auto without = problem.solve(solution.unknowns, sigmas, {static_cast<int>(n), block, -1}, kCoarse);
       RecordingEvaluator& evaluator = problem.evaluator(n);
       const Registration registration = evaluator.registration(without.unknowns.registrations[n]);
-      const std::vector<TipPrediction>* predictions = evaluator.at(without.unknowns.x.data(), false);
+      const TipPredictions* predictions = evaluator.at(without.unknowns.x.data(), false);
       if (predictions == nullptr) continue;
-      for (size_t i = 0; i < predictions->size(); ++i)
+      for (size_t i = 0; i < predictions->X_BT.size(); ++i)
         if (problem.blockOf(n, i) == block)
           fit.left_out_error[i] =
-              errorsOf(registration, (*predictions)[i].X_BT, recordings[n].recording.samples[i]).position.norm();
+              errorsOf(registration, predictions->X_BT[i], recordings[n].recording.samples[i]).position.norm();
     }
     std::vector<double> left_out;
     for (double error : fit.left_out_error)
@@ -156,7 +156,7 @@ CalibrationResult calibrate(const Scene& scene, const ChannelMap& channels,
     fit.name = rows[row].name;
     fit.measured = rows[row].compliance;
     const double norm = fit.measured.norm();
-    if (!problem.rowCompliance(row, solution.unknowns.x.data(), fit.predicted))
+    if (!problem.rowCompliance(row, problem.values(solution.unknowns.x), fit.predicted))
       throw ConfigurationError(fit.name, {"the fitted model has no solution there"});
     fit.norm_error = std::abs(norm - fit.predicted.norm()) / norm;
     fit.matrix_error = (fit.measured - fit.predicted).norm() / norm;
@@ -164,7 +164,7 @@ CalibrationResult calibrate(const Scene& scene, const ChannelMap& channels,
     if (blocks > 0) {
       progress("leaving blocks out", done++, total);
       const auto without = problem.solve(solution.unknowns, sigmas, {-1, -1, static_cast<int>(row)}, kFine);
-      if (!problem.rowCompliance(row, without.unknowns.x.data(), fit.left_out)) fit.left_out.setConstant(NAN);
+      if (!problem.rowCompliance(row, problem.values(without.unknowns.x), fit.left_out)) fit.left_out.setConstant(NAN);
     }
     fit.left_out_norm_error = std::abs(norm - fit.left_out.norm()) / norm;
     fit.left_out_matrix_error = (fit.measured - fit.left_out).norm() / norm;

@@ -16,7 +16,7 @@
 
 #include "calibration/compliance_table.h"
 #include "calibration/force_sensor.h"
-#include "calibration/tip_predictor.h"
+#include "live_stiffness/compliance/model_options.h"
 #include "live_stiffness/estimation/error_summary.h"
 #include "live_stiffness/estimation/recording.h"
 #include "live_stiffness/estimation/registration.h"

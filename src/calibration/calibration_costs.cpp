@@ -1,5 +1,6 @@
 #include "calibration/calibration_costs.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace live_stiffness {
@@ -20,14 +21,14 @@ class SampleCost : public ceres::CostFunction {
   bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
     const int own = parameters_.empty() ? 0 : 1;  // index of the registration's block
     const bool derivatives = own == 1 && jacobians != nullptr && jacobians[0] != nullptr;
-    const std::vector<TipPrediction>* predictions = evaluator_.at(own == 1 ? blocks[0] : nullptr, derivatives);
+    const TipPredictions* predictions = evaluator_.at(own == 1 ? blocks[0] : nullptr, derivatives);
     if (predictions == nullptr) return false;
-    const TipPrediction& prediction = (*predictions)[sample_];
+    const Pose& X_BT = predictions->X_BT[sample_];
     const RecordedSample& measured = evaluator_.data().recording.samples[sample_];
     const Eigen::Map<const RegistrationVector> r(blocks[own]);
     const Registration registration = evaluator_.registration(r);
-    const Matrix3 R_AT = registration.X_AB.R * prediction.X_BT.R;
-    const Vector3 arm = registration.X_AB.R * (prediction.X_BT.p + prediction.X_BT.R * registration.X_TS.p);
+    const Matrix3 R_AT = registration.X_AB.R * X_BT.R;
+    const Vector3 arm = registration.X_AB.R * (X_BT.p + X_BT.R * registration.X_TS.p);
     const Vector3 position = arm + registration.X_AB.p - measured.tip_position;
     const int rows = num_residuals();
     Eigen::Map<Eigen::VectorXd> e(residuals, rows);
@@ -54,9 +55,9 @@ class SampleCost : public ceres::CostFunction {
     if (!derivatives) return true;
     Eigen::Map<RowMajor> J(jacobians[0], rows, static_cast<long>(parameters_.size()));
     const Matrix3& R_AB = registration.X_AB.R;
-    const Vector3 lever = prediction.X_BT.R * registration.X_TS.p;
+    const Vector3 lever = X_BT.R * registration.X_TS.p;
     for (size_t k = 0; k < parameters_.size(); ++k) {
-      const Vector6 twist = prediction.derivative.col(static_cast<long>(k)) * parameters_[k].prior_sigma;
+      const Vector6 twist = predictions->derivative[sample_].col(static_cast<long>(k)) * parameters_[k].prior_sigma;
       const long column = static_cast<long>(k);
       J.block<3, 1>(0, column) = R_AB * (twist.head<3>() + twist.tail<3>().cross(lever)) / sigmas_.position;
       if (rows == 6) J.block<3, 1>(3, column) = left_inverse * (R_AB * twist.tail<3>()) / sigmas_.rotation;
@@ -71,47 +72,48 @@ class SampleCost : public ceres::CostFunction {
   ResidualSigmas sigmas_;
 };
 
-// Derivatives by central differences of solves to 1e-12. A table has few rows, so this costs less than a millisecond.
 class ComplianceCost : public ceres::CostFunction {
  public:
-  ComplianceCost(RowCompliance compliance, const Matrix3& measured, double sigma, int parameters)
-      : compliance_(std::move(compliance)), measured_(measured), scale_(1.0 / (sigma * measured.norm())) {
+  ComplianceCost(RowCompliance compliance, const Matrix3& measured, double sigma,
+                 const std::vector<SceneParameter>& parameters)
+      : compliance_(std::move(compliance)), measured_(measured), scale_(1.0 / (sigma * measured.norm())),
+        parameters_(parameters) {
     set_num_residuals(10);
-    mutable_parameter_block_sizes()->push_back(parameters);
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(parameters.size()));
   }
 
   bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
-    const int count = parameter_block_sizes()[0];
-    if (!evaluate(blocks[0], residuals)) return false;
+    const Eigen::VectorXd values = valuesAt(parameters_, blocks[0]);
+    Errors errors, below;
+    if (!evaluate(values, errors)) return false;
+    std::copy_n(errors.data(), errors.size(), residuals);
     if (jacobians == nullptr || jacobians[0] == nullptr) return true;
-    constexpr double kStep = 1e-4;  // of a prior sigma: truncation 1e-8 of the change, rounding 1e-8 too
-    std::vector<double> x(blocks[0], blocks[0] + count);
-    double above[10], below[10];
-    for (int k = 0; k < count; ++k) {
-      const double at = x[k];
-      x[k] = at + kStep;
-      if (!evaluate(x.data(), above)) return false;
-      x[k] = at - kStep;
-      if (!evaluate(x.data(), below)) return false;
-      x[k] = at;
-      for (int i = 0; i < 10; ++i) jacobians[0][i * count + k] = (above[i] - below[i]) / (2.0 * kStep);
+    Eigen::Map<RowMajor> J(jacobians[0], 10, values.size());
+    J.setZero();
+    for (size_t k = 0; k < parameters_.size(); ++k) {
+      const ParameterStep step = stepAbout(values, parameters_, k);
+      if (!(step.distance > 0.0)) continue;
+      if (!evaluate(step.above, errors) || !evaluate(step.below, below)) return false;
+      J.col(static_cast<long>(k)) = (errors - below) * (parameters_[k].prior_sigma / step.distance);
     }
     return true;
   }
 
  private:
-  bool evaluate(const double* x, double* residuals) const {
+  using Errors = Eigen::Matrix<double, 10, 1>;
+
+  bool evaluate(const Eigen::VectorXd& values, Errors& errors) const {
     Matrix3 C;
-    if (!compliance_(x, C)) return false;
-    Eigen::Map<Matrix3> entries(residuals);
-    entries = scale_ * (C - measured_);
-    residuals[9] = scale_ * (C.norm() - measured_.norm());
+    if (!compliance_(values, C)) return false;
+    errors << scale_ * Eigen::Map<const Eigen::Matrix<double, 9, 1>>(Matrix3(C - measured_).data()),
+        scale_ * (C.norm() - measured_.norm());
     return true;
   }
 
   RowCompliance compliance_;
   Matrix3 measured_;
   double scale_;
+  const std::vector<SceneParameter>& parameters_;
 };
 
 }  // namespace
@@ -123,7 +125,7 @@ std::unique_ptr<ceres::CostFunction> sampleCost(RecordingEvaluator& evaluator, s
 }
 
 std::unique_ptr<ceres::CostFunction> complianceCost(RowCompliance compliance, const Matrix3& measured, double sigma,
-                                                    int parameters) {
+                                                    const std::vector<SceneParameter>& parameters) {
   return std::make_unique<ComplianceCost>(std::move(compliance), measured, sigma, parameters);
 }
 

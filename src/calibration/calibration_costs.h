@@ -20,11 +20,12 @@ std::unique_ptr<ceres::CostFunction> sampleCost(RecordingEvaluator& evaluator, s
                                                 const std::vector<SceneParameter>& parameters,
                                                 const ResidualSigmas& sigmas);
 
-// Compliance of a row at x, m/N. False if there is no solution.
-using RowCompliance = std::function<bool(const double* x, Matrix3& compliance)>;
+// Compliance of a row at these values (SI) of the parameters, m/N. False if there is no solution.
+using RowCompliance = std::function<bool(const Eigen::VectorXd& values, Matrix3& compliance)>;
 
 // Errors of the row's nine entries and of its norm, which (42) compares, divided by `sigma` times the measured norm. Block: x.
+// Refers to parameters.
 std::unique_ptr<ceres::CostFunction> complianceCost(RowCompliance compliance, const Matrix3& measured, double sigma,
-                                                    int parameters);
+                                                    const std::vector<SceneParameter>& parameters);
 
 }  // namespace live_stiffness

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "live_stiffness/checks.h"
+#include "live_stiffness/compliance/stiffness_model.h"
 
 namespace live_stiffness {
 namespace {
@@ -81,10 +82,10 @@ CalibrationProblem::CalibrationProblem(const Scene& scene, const ChannelMap& cha
 
 Eigen::VectorXd CalibrationProblem::values(const Eigen::VectorXd& x) const { return valuesAt(parameters_, x.data()); }
 
-bool CalibrationProblem::rowCompliance(size_t row, const double* x, Matrix3& compliance) const {
+bool CalibrationProblem::rowCompliance(size_t row, const Eigen::VectorXd& values, Matrix3& compliance) const {
   ModelOptions options = options_.model;
   options.accuracy = 1e-12;
-  const StiffnessModel model(withParameters(scene_, parameters_, valuesAt(parameters_, x)), options);
+  const StiffnessModel model(withParameters(scene_, parameters_, values), options);
   StiffnessWorkspace workspace = model.makeWorkspace();
   const StiffnessSolution solution = model.solve(rows_[row].pressures, Wrench::Zero(), workspace);
   if (!solution.status.ok()) return false;
@@ -130,8 +131,8 @@ std::vector<ceres::ResidualBlockId> CalibrationProblem::addData(ceres::Problem& 
   }
   for (size_t row = 0; row < rows_.size() && count > 0; ++row) {
     if (static_cast<int>(row) == left_out.row) continue;
-    const auto compliance = [this, row](const double* x, Matrix3& C) { return rowCompliance(row, x, C); };
-    auto cost = complianceCost(compliance, rows_[row].compliance, options_.compliance_sigma, count);
+    const auto compliance = [this, row](const Eigen::VectorXd& values, Matrix3& C) { return rowCompliance(row, values, C); };
+    auto cost = complianceCost(compliance, rows_[row].compliance, options_.compliance_sigma, parameters_);
     added.push_back(problem.AddResidualBlock(cost.release(), nullptr, unknowns.x.data()));
   }
   return added;

@@ -39,8 +39,8 @@ class CalibrationProblem {
   RecordingEvaluator& evaluator(size_t recording) { return *evaluators_[recording]; }
   // Block of a sample, 0 to options.blocks - 1: equal spans of time of the samples used.
   int blockOf(size_t recording, size_t sample) const { return blocks_[recording][sample]; }
-  // Compliance of a row at x, m/N. False if there is no solution.
-  bool rowCompliance(size_t row, const double* x, Matrix3& compliance) const;
+  // Compliance of a row at these values (SI) of the parameters, m/N. False if there is no solution.
+  bool rowCompliance(size_t row, const Eigen::VectorXd& values, Matrix3& compliance) const;
 
  private:
   // Adds the residuals of all data but those left out, and returns their blocks; then those of the priors.

@@ -24,14 +24,6 @@ const Prior* priorOf(const std::string& name) {
   return nullptr;
 }
 
-// The mount with `change` (SI) added to the parameter of this name.
-ForceSensorMount changed(ForceSensorMount mount, const std::string& name, double change) {
-  ForceSensorMount::forEachParameter(mount, [&](const NumberParameter& number, double& value) {
-    if (name == number.key) value += change;
-  });
-  return mount;
-}
-
 }  // namespace
 
 Wrench ForceSensorMount::atTip(const Wrench& reading, const Matrix3& R_BT) const {
@@ -53,7 +45,8 @@ std::optional<SceneParameter> forceSensorParameter(const std::string& name, cons
     if (name != number.key) return;
     const double low = prior->reach > 0.0 ? value - prior->reach : number.range.low;
     const double high = prior->reach > 0.0 ? value + prior->reach : number.range.high;
-    found = SceneParameter{name, ParameterKind::kForceSensor, {}, value, value, prior->sigma, low, high, number.unit};
+    found = SceneParameter{name, ParameterKind::kForceSensor, {}, value, value, prior->sigma, low, high, number.unit,
+                           1e-3 * prior->sigma};
   });
   return found;
 }
@@ -84,23 +77,6 @@ ForceReadings::ForceReadings(const Recording& recording) {
 
 Wrench ForceReadings::atTip(const ForceSensorMount& mount, double time, const Matrix3& R_BT) const {
   return mount.atTip(valueAt(readings_, placeIn(times_, time + mount.delay)), R_BT);
-}
-
-// By central differences: a wrench is linear in all but the azimuth, in which 1e-4 of its sigma leaves 1e-11. At the time of
-// a reading (a sensor without delay) they are the mean of both sides.
-Eigen::Matrix<double, 6, Eigen::Dynamic> ForceReadings::derivative(const ForceSensorMount& mount,
-                                                                   const std::vector<SceneParameter>& parameters,
-                                                                   double time, const Matrix3& R_BT) const {
-  Eigen::Matrix<double, 6, Eigen::Dynamic> derivative(6, static_cast<long>(parameters.size()));
-  derivative.setZero();
-  for (size_t k = 0; k < parameters.size(); ++k) {
-    const Prior* const prior = priorOf(parameters[k].name);
-    if (prior == nullptr) continue;
-    const double step = 1e-4 * prior->sigma;
-    const auto wrenchAt = [&](double change) { return atTip(changed(mount, parameters[k].name, change), time, R_BT); };
-    derivative.col(static_cast<long>(k)) = (wrenchAt(step) - wrenchAt(-step)) / (2.0 * step);
-  }
-  return derivative;
 }
 
 }  // namespace live_stiffness

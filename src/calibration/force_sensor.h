@@ -66,10 +66,6 @@ class ForceReadings {
   // The wrench at `time` (s), from the reading at time + delay, as a dead wrench at T in base axes, with the tip oriented as
   // R_BT. Linear between readings; outside of them the nearest one.
   Wrench atTip(const ForceSensorMount& mount, double time, const Matrix3& R_BT) const;
-  // Its derivatives by the parameters (SI), 6 x parameters; zero for parameters of the scene.
-  Eigen::Matrix<double, 6, Eigen::Dynamic> derivative(const ForceSensorMount& mount,
-                                                      const std::vector<SceneParameter>& parameters, double time,
-                                                      const Matrix3& R_BT) const;
 
  private:
   std::vector<double> times_;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "estimation/creep.h"
 #include "live_stiffness/checks.h"
+#include "live_stiffness/compliance/stiffness_model.h"
 #include "live_stiffness/estimation/registration_fit.h"
 
 namespace live_stiffness {
@@ -19,29 +21,67 @@ double sampleTime(const Recording& recording) {
 RecordingEvaluator::RecordingEvaluator(const Scene& scene, const ChannelMap& channels,
                                        const std::vector<SceneParameter>& parameters, const CalibrationRecording& data,
                                        const CalibrationOptions& options)
-    : predictor_(scene, options.model, channels, parameters), data_(data), mount_(options.force_sensor),
-      readings_(data.recording) {
+    : scene_(scene), channels_(channels), parameters_(parameters), data_(data), model_(options.model),
+      mount_(options.force_sensor), readings_(data.recording) {
+  constexpr double kAccuracy = 1e-9;  // leaves 1e-5 of a difference by a thousandth of a prior sigma
+  model_.accuracy = std::min(model_.accuracy, kAccuracy);
+  if (channels.chamberCount() != scene.chamberCount())
+    throw ConfigurationError("channel map", {"feeds " + std::to_string(channels.chamberCount()) + " chambers: must be the "
+                                             "scene's " + std::to_string(scene.chamberCount())});
   if (data.recording.channelCount() != channels.channelCount())
     throw ConfigurationError(data.recording.name,
                              {std::to_string(data.recording.channelCount()) + " pressure channels: must be " +
                               std::to_string(channels.channelCount()) + ", as the channel map has"});
-  for (size_t i = 0; i < data.channels.size(); ++i)
-    samples_.push_back({data.recording.samples[i].time, data.channels[i], Wrench::Zero(), data.used[i]});
   correlation_ = std::max(1.0, options.correlation_time / sampleTime(data.recording));
 }
 
-const std::vector<TipPrediction>* RecordingEvaluator::at(const double* x, bool derivatives) {
-  const Eigen::VectorXd values =
-      x == nullptr ? Eigen::VectorXd() : Eigen::VectorXd(valuesAt(predictor_.parameters(), x));
+bool RecordingEvaluator::predict(const Eigen::VectorXd& values, bool all, std::vector<Pose>& X_BT) {
+  const Scene scene = withParameters(scene_, parameters_, values);
+  const ForceSensorMount mount = withParameters(mount_, parameters_, values);
+  const StiffnessModel model(scene, model_);
+  StiffnessWorkspace workspace = model.makeWorkspace();
+  SceneCreep creep(scene);
+  X_BT.resize(data_.used.size());
+  for (size_t i = 0; i < X_BT.size(); ++i) {
+    const double time = data_.recording.samples[i].time;
+    const Pressures& effective = creep.update(data_.channels[i], time);
+    if (!all && !data_.used[i]) continue;
+    const bool pushed = !R_BT_.empty() && data_.loaded[i] && data_.recording.samples[i].tip_wrench;
+    const Wrench tip_wrench = pushed ? readings_.atTip(mount, time, R_BT_[i]) : Wrench(Wrench::Zero());
+    const StiffnessSolution solution = model.solve(channels_.expand(effective), tip_wrench, workspace);
+    if (!solution.status.ok()) {
+      failure_ = "sample at " + numberText(time) + " s: " + model.describe(solution.status);
+      return false;
+    }
+    X_BT[i] = solution.X_BT;
+  }
+  return true;
+}
+
+bool RecordingEvaluator::differentiate(const Eigen::VectorXd& values) {
+  const std::vector<Pose>& X_BT = predictions_.X_BT;
+  predictions_.derivative.resize(X_BT.size());
+  for (auto& derivative : predictions_.derivative) derivative.setZero(6, values.size());
+  std::vector<Pose> above, below;
+  for (size_t k = 0; k < parameters_.size(); ++k) {
+    const ParameterStep step = stepAbout(values, parameters_, k);
+    if (!(step.distance > 0.0)) continue;
+    if (!predict(step.above, false, above) || !predict(step.below, false, below)) return false;
+    for (size_t i = 0; i < X_BT.size(); ++i) {
+      if (!data_.used[i]) continue;
+      auto twist = predictions_.derivative[i].col(static_cast<long>(k));
+      twist << above[i].p - below[i].p, logSo3(above[i].R * below[i].R.transpose());
+      twist /= step.distance;
+    }
+  }
+  return true;
+}
+
+const TipPredictions* RecordingEvaluator::at(const double* x, bool derivatives) {
+  const Eigen::VectorXd values = valuesAt(parameters_, x);
   const bool same = has_cache_ && cached_.size() == values.size() && cached_ == values;
   if (!same || (derivatives && !cache_has_derivatives_)) {
-    const ForceSensorMount mount = withParameters(mount_, predictor_.parameters(), values);
-    placeWrenches(mount, samples_);
-    cache_ok_ = predictor_.predict(values, samples_, derivatives, predictions_);
-    for (size_t i = 0; cache_ok_ && derivatives && i < samples_.size(); ++i)
-      if (isPushed(i) && samples_[i].wanted)
-        predictions_[i].derivative += predictions_[i].compliance *
-                                      readings_.derivative(mount, predictor_.parameters(), samples_[i].time, R_BT_[i]);
+    cache_ok_ = predict(values, false, predictions_.X_BT) && (!derivatives || differentiate(values));
     cached_ = values;
     has_cache_ = true;
     cache_has_derivatives_ = derivatives;
@@ -49,24 +89,11 @@ const std::vector<TipPrediction>* RecordingEvaluator::at(const double* x, bool d
   return cache_ok_ ? &predictions_ : nullptr;
 }
 
-bool RecordingEvaluator::predictAll(const double* x, std::vector<TipPrediction>& predictions) {
-  std::vector<ActuationSample> samples = samples_;
-  for (ActuationSample& sample : samples) sample.wanted = true;
-  const Eigen::VectorXd values = valuesAt(predictor_.parameters(), x);
-  placeWrenches(withParameters(mount_, predictor_.parameters(), values), samples);
-  return predictor_.predict(values, samples, false, predictions);
-}
-
 void RecordingEvaluator::orientTips(const Registration& registration) {
   R_BT_.clear();
   for (const RecordedSample& sample : data_.recording.samples)
     R_BT_.push_back(registration.tipPose(sample.tipPose()).R);
   has_cache_ = false;
-}
-
-void RecordingEvaluator::placeWrenches(const ForceSensorMount& mount, std::vector<ActuationSample>& samples) const {
-  for (size_t i = 0; i < samples.size(); ++i)
-    if (isPushed(i)) samples[i].tip_wrench = readings_.atTip(mount, samples[i].time, R_BT_[i]);
 }
 
 Registration RecordingEvaluator::registration(const RegistrationVector& r) const {
@@ -77,14 +104,14 @@ Registration RecordingEvaluator::registration(const RegistrationVector& r) const
 }
 
 void RecordingEvaluator::restart(const double* x) {
-  const std::vector<TipPrediction>* predictions = at(x, false);
+  const TipPredictions* predictions = at(x, false);
   if (predictions == nullptr)
     throw ConfigurationError("calibration of " + data_.recording.name,
                              {"the model has no solution at the start: " + failure()});
   std::vector<Pose> X_BT, X_AS;
-  for (size_t i = 0; i < samples_.size(); ++i) {
+  for (size_t i = 0; i < data_.used.size(); ++i) {
     if (!data_.used[i] || data_.loaded[i]) continue;
-    X_BT.push_back((*predictions)[i].X_BT);
+    X_BT.push_back(predictions->X_BT[i]);
     X_AS.push_back(data_.recording.samples[i].tipPose());
   }
   start_ = fitRegistration(X_BT, X_AS).registration;

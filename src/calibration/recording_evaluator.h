@@ -1,5 +1,5 @@
 #pragma once
-// Predictions of the model for all samples of a recording.
+// Predictions of the model for the samples of a recording, with their derivatives by the parameters.
 
 #include <string>
 #include <vector>
@@ -19,16 +19,24 @@ struct CalibrationUnknowns {
   std::vector<RegistrationVector> registrations;
 };
 
-// Predictions for one recording. Those of the last x are kept, since Ceres evaluates one sample after the other.
+// One entry per sample of the recording; those of samples that are not used stay as they are.
+struct TipPredictions {
+  std::vector<Pose> X_BT;
+  // Twist of T (base axes) by parameter: d p / d value and the small rotation, SI; 6 x parameters.
+  std::vector<Eigen::Matrix<double, 6, Eigen::Dynamic>> derivative;
+};
+
+// The last predictions are kept, since Ceres evaluates one sample after the other.
 class RecordingEvaluator {
  public:
   RecordingEvaluator(const Scene& scene, const ChannelMap& channels, const std::vector<SceneParameter>& parameters,
                      const CalibrationRecording& data, const CalibrationOptions& options);
 
-  // Predictions at x; nullptr where a sample has no solution.
-  const std::vector<TipPrediction>* at(const double* x, bool derivatives);
-  // The same for every sample of the recording, used or not.
-  bool predictAll(const double* x, std::vector<TipPrediction>& predictions);
+  // Predictions at x, the derivatives only when asked for; nullptr where a sample has no solution. Derivatives are central
+  // differences of solves: the solver is the only linearised rod there is, and a warm solve costs a few microseconds.
+  const TipPredictions* at(const double* x, bool derivatives);
+  // Poses of every sample of the recording, used or not.
+  bool predictAll(const double* x, std::vector<Pose>& X_BT) { return predict(valuesAt(parameters_, x), true, X_BT); }
 
   // After this call the wrenches of loaded samples act on the tip, oriented as the tracker saw it; before, no wrench acts.
   void orientTips(const Registration& registration);
@@ -39,24 +47,27 @@ class RecordingEvaluator {
 
   const Registration& startRegistration() const { return start_; }
   const CalibrationRecording& data() const { return data_; }
-  const std::string& failure() const { return predictor_.failure(); }
+  const std::string& failure() const { return failure_; }
   double correlation() const { return correlation_; }
 
  private:
-  bool isPushed(size_t i) const { return !R_BT_.empty() && data_.loaded[i] && data_.recording.samples[i].tip_wrench; }
-  void placeWrenches(const ForceSensorMount& mount, std::vector<ActuationSample>& samples) const;
+  bool predict(const Eigen::VectorXd& values, bool all, std::vector<Pose>& X_BT);
+  bool differentiate(const Eigen::VectorXd& values);
 
-  TipPredictor predictor_;
+  const Scene& scene_;
+  const ChannelMap& channels_;
+  const std::vector<SceneParameter>& parameters_;
   const CalibrationRecording& data_;
+  ModelOptions model_;
   ForceSensorMount mount_;
   ForceReadings readings_;
   std::vector<Matrix3> R_BT_;  // of each sample, as seen by the tracker
-  std::vector<ActuationSample> samples_;
-  std::vector<TipPrediction> predictions_;
+  TipPredictions predictions_;
   Eigen::VectorXd cached_;
   bool has_cache_ = false, cache_has_derivatives_ = false, cache_ok_ = false;
   Registration start_;
   double correlation_ = 1.0;
+  std::string failure_;
 };
 
 }  // namespace live_stiffness

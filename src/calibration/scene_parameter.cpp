@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibration/parametric_scene.h"
 #include "live_stiffness/checks.h"
 #include "section/section_reader.h"
 
@@ -69,14 +68,47 @@ bool isThere(const Known& known, const Scene& scene) {
   }
 }
 
-double valueIn(const Scene& scene, ParameterKind kind) {
-  ParametricScene<double> numbers = castScene<double>(scene);
-  if (kind == ParameterKind::kTipMass) return numbers.tip_mass;
-  for (auto body = numbers.chain.rbegin(); kind == ParameterKind::kLinkMass && body != numbers.chain.rend(); ++body)
-    if (!body->is_segment) return body->mass;
-  for (ParametricBody<double>& body : numbers.chain)
-    if (body.is_segment) return *numberOf(body, kind);
-  return 0.0;
+// The number of a segment that a parameter names, or nullptr.
+double* numberOf(Segment& segment, ParameterKind kind) {
+  CrossSection& section = segment.section;
+  switch (kind) {
+    case ParameterKind::kYoungsModulus: return &section.youngs_modulus;
+    case ParameterKind::kShearModulus: return &section.shear_modulus;
+    case ParameterKind::kShearCorrection: return &section.shear_correction;
+    case ParameterKind::kLength: return &segment.length;
+    case ParameterKind::kPitchRadius: return &section.chambers.pitch_radius;
+    case ParameterKind::kChamberRadius: return &section.chambers.radius;
+    case ParameterKind::kAreaGrowth: return &section.chambers.area_growth;
+    case ParameterKind::kGentLimit: return &section.material.gent_limit;
+    case ParameterKind::kYeohC2: return &section.material.yeoh_c2;
+    case ParameterKind::kYeohC3: return &section.material.yeoh_c3;
+    case ParameterKind::kPressureStiffening: return &section.material.pressure_stiffening;
+    case ParameterKind::kCreepShare: return &section.material.creep_share;
+    case ParameterKind::kCreepTime: return &section.material.creep_time;
+    default: return nullptr;
+  }
+}
+
+Link* lastLink(Scene& scene) {
+  for (auto body = scene.chain.rbegin(); body != scene.chain.rend(); ++body)
+    if (auto* link = std::get_if<Link>(&*body)) return link;
+  return nullptr;
+}
+
+double valueIn(Scene scene, ParameterKind kind) {
+  if (kind == ParameterKind::kTipMass) return scene.tip_mass;
+  if (kind == ParameterKind::kLinkMass) return lastLink(scene)->mass;
+  Segment segment = firstSegment(scene);
+  return *numberOf(segment, kind);
+}
+
+void setIn(Segment& segment, const SceneParameter& parameter, double value) {
+  if (parameter.kind == ParameterKind::kChannelAzimuth)
+    for (int chamber : parameter.chambers) segment.section.chambers.azimuths[chamber] += value - parameter.start;
+  double* const number = numberOf(segment, parameter.kind);
+  if (number == nullptr) return;
+  if (parameter.kind == ParameterKind::kYoungsModulus) segment.section.shear_modulus *= value / *number;
+  *number = value;
 }
 
 }  // namespace
@@ -139,6 +171,7 @@ SceneParameter sceneParameter(const std::string& name, const Scene& scene, const
     }
   }
   parameter.prior_mean = parameter.start;
+  parameter.step = 1e-3 * parameter.prior_sigma;
   return parameter;
 }
 
@@ -150,19 +183,26 @@ Eigen::VectorXd valuesAt(const std::vector<SceneParameter>& parameters, const do
   return values;
 }
 
+ParameterStep stepAbout(const Eigen::VectorXd& values, const std::vector<SceneParameter>& parameters, size_t which) {
+  const SceneParameter& p = parameters[which];
+  const auto k = static_cast<long>(which);
+  ParameterStep step{values, values, 0.0};
+  step.above[k] = std::min(values[k] + p.step, p.high);
+  step.below[k] = std::max(values[k] - p.step, p.low);
+  step.distance = step.above[k] - step.below[k];
+  return step;
+}
+
 Scene withParameters(const Scene& scene, const std::vector<SceneParameter>& parameters, const Eigen::VectorXd& values) {
-  ParametricScene<double> numbers = castScene<double>(scene);
-  for (size_t k = 0; k < parameters.size(); ++k) setParameter(numbers, parameters[k], values[static_cast<long>(k)]);
   Scene result = scene;
-  for (size_t k = 0; k < result.chain.size(); ++k) {
-    if (auto* segment = std::get_if<Segment>(&result.chain[k])) {
-      segment->length = numbers.chain[k].length;
-      segment->section = numbers.chain[k].section;
-    } else {
-      std::get<Link>(result.chain[k]).mass = numbers.chain[k].mass;
-    }
+  for (size_t k = 0; k < parameters.size(); ++k) {
+    const double value = values[static_cast<long>(k)];
+    if (parameters[k].kind == ParameterKind::kTipMass) result.tip_mass = value;
+    else if (parameters[k].kind == ParameterKind::kLinkMass) lastLink(result)->mass = value;
+    else
+      for (Body& body : result.chain)
+        if (auto* segment = std::get_if<Segment>(&body)) setIn(*segment, parameters[k], value);
   }
-  result.tip_mass = numbers.tip_mass;
   return result;
 }
 

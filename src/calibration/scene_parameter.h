@@ -26,22 +26,30 @@ struct SceneParameter {
   double prior_sigma = 1.0;
   double low = 0.0, high = 0.0;
   double unit = 1.0;         // SI value of one unit of `name`
+  double step = 0.0;         // of central differences: a thousandth of the prior sigma that it has by default
 };
 
 // Parameter of a scene by its name, with default prior and bounds. Its start is the value of the first segment; a calibrated
-// value is set in all segments. Throws ConfigurationError with the legal names on an
-// unknown one, or one that this scene does not have (a Gent limit without that law, a link's mass without a link, no
-// such channel).
+// value is set in all segments. Throws ConfigurationError with the legal names on an unknown one, or one that this scene does
+// not have (a Gent limit without that law, a link's mass without a link, no such channel).
 SceneParameter sceneParameter(const std::string& name, const Scene& scene, const ChannelMap& channels);
 
 // All names that this scene has.
 std::vector<std::string> sceneParameterNames(const Scene& scene, const ChannelMap& channels);
 
-// Values of the parameters (SI) at x, their differences from the start in units of prior
-// sigmas; limited to their bounds.
+// Values of the parameters (SI) at x, their differences from the start in units of prior sigmas; limited to their bounds.
 Eigen::VectorXd valuesAt(const std::vector<SceneParameter>& parameters, const double* x);
 
-// The scene with these values (SI) of the parameters that belong to it; other parameters are ignored.
+// Values (SI) a step above and below, by one parameter only, for a central difference; the bounds stop a step.
+struct ParameterStep {
+  Eigen::VectorXd above, below;
+  double distance;  // between the two, SI
+};
+ParameterStep stepAbout(const Eigen::VectorXd& values, const std::vector<SceneParameter>& parameters, size_t which);
+
+// The scene with these values (SI) of the parameters that belong to it; other parameters are ignored. With Young's modulus
+// the shear modulus changes, so that Poisson's ratio stays the same. A channel's azimuth rotates all its chambers together
+// about the backbone.
 Scene withParameters(const Scene& scene, const std::vector<SceneParameter>& parameters, const Eigen::VectorXd& values);
 
 }  // namespace live_stiffness

@@ -11,31 +11,25 @@
 
 namespace live_stiffness {
 
-// T is double, or a type that carries derivatives.
-template <class T>
-class CreepFilterOf {
+class CreepFilter {
  public:
-  using Values = Eigen::Matrix<T, Eigen::Dynamic, 1>;
-
   // share: 0 to below 1; time: s, positive.
-  CreepFilterOf(const T& share, const T& time) : share_(share), time_(time) {}
+  CreepFilter(double share, double time) : share_(share), time_(time) {}
 
   // Effective pressures, Pa, for pressures that were constant since the last call, `elapsed` s ago. The first call puts the
   // filter into its steady state, as if its pressures had been there for a long time. Allocates only then.
-  const Values& update(PressuresRef pressures, double elapsed) {
-    using std::exp;
-    if (late_.size() != pressures.size()) late_ = pressures.cast<T>();
-    else late_ += (pressures.cast<T>() - late_) * T(1.0 - exp(-elapsed / time_));
-    effective_ = pressures.cast<T>() * T(1.0 - share_) + late_ * share_;
+  const Pressures& update(PressuresRef pressures, double elapsed) {
+    if (late_.size() != pressures.size()) late_ = pressures;
+    else late_ += (pressures - late_) * (1.0 - std::exp(-elapsed / time_));
+    effective_ = pressures * (1.0 - share_) + late_ * share_;
     return effective_;
   }
   void reset() { late_.resize(0); }
 
  private:
-  T share_, time_;
-  Values late_, effective_;  // y and P_eff, Pa
+  double share_, time_;
+  Pressures late_, effective_;  // y and P_eff, Pa
 };
-using CreepFilter = CreepFilterOf<double>;
 
 // Creep of a whole robot for a stream of stamped pressures: the effective pressures that the static model gets.
 // As in calibration, the creep of the first segment holds for all.

@@ -15,14 +15,14 @@ namespace {
 struct Load {
   double force;
   Vector3 moment;
-  ChamberStiffnessOf<double> stiffness;  // of all pressures
+  ChamberStiffness stiffness;  // of all pressures
 };
 
 // NaN where the section's area or moments run out.
 Vector3 loadRate(const SectionMoments& section, const Load& load, double share, const Vector3& state) {
   const double lam = state[0];
   if (!section.isValidAt(lam)) return Vector3::Constant(std::nan(""));
-  const ChamberStiffnessOf<double> on{share * load.stiffness.axial, share * load.stiffness.bending};
+  const ChamberStiffness on{share * load.stiffness.axial, share * load.stiffness.bending};
   Vector3 rate;
   rate[0] = lam * load.force / section.axialStiffness(lam, on);
   rate.tail<2>() = section.bendingStiffness(lam, on).inverse() * load.moment.head<2>() / std::sqrt(lam);

@@ -107,27 +107,6 @@ TEST(ForceReadings, AreReadLaterByTheDelayAndBetweenReadings) {
   EXPECT_LT((readings.atTip(mountOf(0.0, 0.0, {0.0, 0.0}, 0.05), 5.0, Matrix3::Identity()) - between).norm(), 1e-12);
 }
 
-TEST(ForceReadings, DerivativesAreThoseOfDifferences) {
-  const ForceReadings readings(pushedArm({}));
-  const ForceSensorMount mount = mountOf(20.0, -0.01, {0.05, -0.03}, 0.02);
-  std::vector<SceneParameter> parameters = allOf(mount);
-  parameters.push_back(sceneParameter("length_m", arm(), kPairs));
-  const Matrix3 R_BT = expSo3(Vector3(0.3, -0.5, 0.2));
-  const auto derivative = readings.derivative(mount, parameters, 5.0, R_BT);
-  Eigen::VectorXd values(6);
-  for (int k = 0; k < 6; ++k) values[k] = parameters[static_cast<size_t>(k)].start;
-  for (int k = 0; k < 5; ++k) {
-    Eigen::VectorXd more = values, less = values;
-    const double step = 1e-3 * parameters[static_cast<size_t>(k)].prior_sigma;
-    more[k] += step, less[k] -= step;
-    const Wrench change = readings.atTip(withParameters(mount, parameters, more), 5.0, R_BT) -
-                          readings.atTip(withParameters(mount, parameters, less), 5.0, R_BT);
-    EXPECT_LT((derivative.col(k) - change / (2.0 * step)).norm(), 1e-8) << parameters[static_cast<size_t>(k)].name;
-    EXPECT_GT(derivative.col(k).norm(), 1e-3) << parameters[static_cast<size_t>(k)].name;
-  }
-  EXPECT_EQ(derivative.col(5).norm(), 0.0) << "the scene's length";
-}
-
 TEST(Calibration, UsesTheForceSensorOfSamplesUnderContact) {
   const ForceSensorMount mount{radians(90.0), 0.005, -1.0};
   const CalibrationRecording data(pushedArm(mount), SampleChoice::kAll, LoadedSamples::kFit);

@@ -21,7 +21,7 @@ bool AccumulatedRestState::advanceTo(PressuresRef pressures) {
   const double force = section_.chambers.actuationForce(pressures);
   const Vector3 moment = section_.chambers.actuationMoment(pressures, 1.0);
   const double stretch = state_.stretch * (1.0 + state_.c.shear_elongation(2, 2) * (force - force_));
-  const ChamberStiffnessOf<double> pressurised = chamberStiffness(section_, pressures);
+  const ChamberStiffness pressurised = chamberStiffness(section_, pressures);
   if (!moments_.isValidAt(stretch, pressurised)) return false;
   state_.curvature += state_.c.bending_torsion * (moment - moment_) / std::sqrt(state_.stretch);
   state_.stretch = stretch;

@@ -15,8 +15,7 @@ namespace live_stiffness {
 
 struct Backbone;      // the solved shape, and
 class StaticsSolver;  // the solver of the library, see src/rod
-template <class T>
-class LoadStepperOf;
+class LoadStepper;    // of one segment, see src/section
 
 enum class SolveCode {
   kOk = 0,
@@ -112,7 +111,7 @@ class StiffnessModel {
   ModelOptions options_;
   int chamber_count_;
   bool has_weight_;
-  std::vector<LoadStepperOf<double>> steppers_;  // one per segment
+  std::vector<LoadStepper> steppers_;  // one per segment
 };
 
 }  // namespace live_stiffness

@@ -1,0 +1,162 @@
+#include "calibration/recording_evaluator.h"
+
+#include <gtest/gtest.h>
+
+#include "support/scenes.h"
+
+namespace live_stiffness {
+namespace {
+
+// A segment of every kind of softness, hanging or standing, bent out of plane, with a wrench at the tip.
+Scene fullScene(StretchLaw law, int segments) {
+  Scene scene = paperScene(segments);
+  for (Body& body : scene.chain) {
+    if (auto* segment = std::get_if<Segment>(&body)) {
+      Material& material = segment->section.material;
+      material.law = law;
+      material.gent_limit = 20.0;
+      material.yeoh_c2 = 0.1;
+      material.yeoh_c3 = 0.02;
+      material.pressure_stiffening = law == StretchLaw::kSectionUpdate ? 0.0 : 0.4;
+      material.creep_share = 0.1;
+      material.creep_time = 2.0;
+      segment->section.chambers.area_growth = 5e-7;
+    }
+  }
+  scene.gravity = Vector3(1.0, -2.0, 9.0);  // hanging, and leaning: nothing buckles
+  scene.chain.emplace_back(Link{0.0145, 0.0135});
+  scene.tip_offset = Vector3(0.001, 0.002, 0.003);
+  return scene;
+}
+
+// Four samples, the third pushed.
+CalibrationRecording recordingOf(int channels) {
+  Recording recording;
+  recording.name = "test";
+  for (int i = 0; i < 4; ++i) {
+    RecordedSample& sample = recording.samples.emplace_back();
+    sample.time = 0.7 * i;
+    sample.pressures = Pressures::Zero(channels);
+    sample.pressures[i % channels] = 6e4;
+    sample.pressures[(i + 1) % channels] = 2e4 * i;
+    sample.tip_wrench = Wrench::Zero();
+    if (i == 2) *sample.tip_wrench << 0.05, -0.03, 0.05, 1e-4, 2e-4, -1e-4;
+  }
+  return {std::move(recording), SampleChoice::kAll, LoadedSamples::kFit};
+}
+
+struct Problem {
+  Scene scene;
+  ChannelMap channels;
+  std::vector<SceneParameter> parameters;
+  CalibrationOptions options;
+  CalibrationRecording data;
+
+  Problem(const Scene& from, Stepping stepping, bool external_loads)
+      : scene(from), channels(ChannelMap::even(from.chamberCount() / 2, from.chamberCount())),
+        data(recordingOf(from.chamberCount() / 2)) {
+    for (const std::string& name : sceneParameterNames(scene, channels))
+      parameters.push_back(sceneParameter(name, scene, channels));
+    for (const std::string& name : forceSensorParameterNames())
+      parameters.push_back(*forceSensorParameter(name, options.force_sensor));
+    options.model.stepping = stepping;
+    options.model.external_loads = external_loads;
+  }
+};
+
+// Twists of all samples by parameter k over +-reach steps, per unit, of solves at 1e-12.
+std::vector<Vector6> differences(const Problem& problem, size_t k, double reach) {
+  CalibrationOptions options = problem.options;
+  options.model.accuracy = 1e-12;
+  RecordingEvaluator evaluator(problem.scene, problem.channels, problem.parameters, problem.data, options);
+  evaluator.orientTips(Registration());
+  const SceneParameter& p = problem.parameters[k];
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(static_cast<long>(problem.parameters.size()));
+  std::vector<Pose> above, below;
+  x[static_cast<long>(k)] = reach * p.step / p.prior_sigma;
+  EXPECT_TRUE(evaluator.predictAll(x.data(), above)) << evaluator.failure();
+  x *= -1.0;
+  EXPECT_TRUE(evaluator.predictAll(x.data(), below)) << evaluator.failure();
+  std::vector<Vector6> twists(above.size());
+  for (size_t i = 0; i < above.size(); ++i) {
+    twists[i] << above[i].p - below[i].p, logSo3(above[i].R * below[i].R.transpose());
+    twists[i] /= 2.0 * reach * p.step;
+  }
+  return twists;
+}
+
+// Against differences over other steps, extrapolated to none.
+void expectDerivativesAgree(const Problem& problem) {
+  RecordingEvaluator evaluator(problem.scene, problem.channels, problem.parameters, problem.data, problem.options);
+  evaluator.orientTips(Registration());
+  const Eigen::VectorXd x = Eigen::VectorXd::Zero(static_cast<long>(problem.parameters.size()));
+  const TipPredictions* predictions = evaluator.at(x.data(), true);
+  ASSERT_NE(predictions, nullptr) << evaluator.failure();
+  for (size_t k = 0; k < problem.parameters.size(); ++k) {
+    const std::vector<Vector6> near = differences(problem, k, 4.0), far = differences(problem, k, 8.0);
+    for (size_t i = 0; i < near.size(); ++i) {
+      const Vector6 expected = (4.0 * near[i] - far[i]) / 3.0, derivative = predictions->derivative[i].col(static_cast<long>(k));
+      // 1e-8: of what a prior sigma moves, m and rad.
+      EXPECT_LT((derivative - expected).norm(), 1e-4 * expected.norm() + 1e-8 / problem.parameters[k].prior_sigma)
+          << problem.parameters[k].name << ", sample " << i << "\n" << derivative.transpose() << "\n" << expected.transpose();
+    }
+  }
+}
+
+TEST(RecordingEvaluator, DerivativesHaveConvergedForEveryLaw) {
+  for (StretchLaw law : {StretchLaw::kSectionUpdate, StretchLaw::kNeoHookean, StretchLaw::kGent, StretchLaw::kYeoh}) {
+    expectDerivativesAgree({fullScene(law, 1), Stepping::kContinuous, true});
+    expectDerivativesAgree({fullScene(law, 1), Stepping::kFixedStep, true});
+  }
+}
+
+TEST(RecordingEvaluator, DerivativesHaveConvergedForTwoSegments) {
+  expectDerivativesAgree({fullScene(StretchLaw::kYeoh, 2), Stepping::kContinuous, true});
+}
+
+TEST(RecordingEvaluator, DerivativesHaveConvergedWithoutLoadsAndWithoutSteps) {
+  expectDerivativesAgree({fullScene(StretchLaw::kNeoHookean, 1), Stepping::kContinuous, false});
+  expectDerivativesAgree({fullScene(StretchLaw::kSectionUpdate, 1), Stepping::kLinear, true});
+}
+
+// The scene's creep share and pressure stiffening are zero, on their bounds; the pitch radius is moved to its own.
+TEST(RecordingEvaluator, DerivativesAtABoundAreThoseOfTheLegalSide) {
+  Problem problem(paperScene(1), Stepping::kContinuous, true);
+  for (SceneParameter& p : problem.parameters)
+    if (p.kind == ParameterKind::kPitchRadius) p.high = p.start;
+  RecordingEvaluator evaluator(problem.scene, problem.channels, problem.parameters, problem.data, problem.options);
+  const Eigen::VectorXd x = Eigen::VectorXd::Zero(static_cast<long>(problem.parameters.size()));
+  const TipPredictions* predictions = evaluator.at(x.data(), true);
+  ASSERT_NE(predictions, nullptr) << evaluator.failure();
+  const std::vector<Pose> at = predictions->X_BT;
+  const auto derivative = predictions->derivative;
+  int tested = 0;
+  for (size_t k = 0; k < problem.parameters.size(); ++k) {
+    const SceneParameter& p = problem.parameters[k];
+    if (p.kind != ParameterKind::kPitchRadius && p.kind != ParameterKind::kCreepShare) continue;
+    ++tested;
+    const double side = p.kind == ParameterKind::kPitchRadius ? -1.0 : 1.0;
+    Eigen::VectorXd moved = x;
+    moved[static_cast<long>(k)] = 0.02 * side;
+    std::vector<Pose> poses;
+    ASSERT_TRUE(evaluator.predictAll(moved.data(), poses));
+    for (size_t i = 0; i < at.size(); ++i) {
+      const Vector3 expected = (poses[i].p - at[i].p) / (0.02 * side * p.prior_sigma);
+      const Vector3 found = derivative[i].col(static_cast<long>(k)).head<3>();
+      EXPECT_LT((found - expected).norm(), 0.01 * expected.norm() + 1e-6) << p.name << ", sample " << i;
+    }
+  }
+  EXPECT_EQ(tested, 2);
+}
+
+TEST(RecordingEvaluator, NamesTheSampleThatHasNoSolution) {
+  Problem problem(fullScene(StretchLaw::kSectionUpdate, 1), Stepping::kContinuous, true);
+  problem.data.channels[1].setConstant(5e5);  // beyond the section's range
+  RecordingEvaluator evaluator(problem.scene, problem.channels, problem.parameters, problem.data, problem.options);
+  const Eigen::VectorXd x = Eigen::VectorXd::Zero(static_cast<long>(problem.parameters.size()));
+  EXPECT_EQ(evaluator.at(x.data(), false), nullptr);
+  EXPECT_NE(evaluator.failure().find("0.7 s"), std::string::npos) << evaluator.failure();
+}
+
+}  // namespace
+}  // namespace live_stiffness
