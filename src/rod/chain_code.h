@@ -10,25 +10,19 @@ namespace live_stiffness {
 namespace {
 
 // Derivatives across a rigid part, base axes; n: the force that acts on its lever.
-inline void carrySensitivities(const double (&along)[3], const double (&n)[3], ElementTransfer& at) {
+inline void carrySensitivities(const Vector& along, const Vector& n, ElementTransfer& at) {
   for (int k = 0; k < kColumns; ++k) {
-    double moved[3], moment[3];
-    crossInto(at.phi[k], along[0], along[1], along[2], moved);
-    crossInto(n, moved[0], moved[1], moved[2], moment);
-    for (int i = 0; i < 3; ++i) at.p[k][i] += moved[i], at.m[k][i] += moment[i];
+    const Vector moved = cross(get(at.phi[k]), along);
+    put(get(at.p[k]) + moved, at.p[k]);
+    put(get(at.m[k]) + cross(n, moved), at.m[k]);
   }
-  at.m[3][1] -= along[2], at.m[3][2] += along[1];
-  at.m[4][2] -= along[0], at.m[4][0] += along[2];
-  at.m[5][0] -= along[1], at.m[5][1] += along[0];
+  const Vector by_unit_force[3] = {{0.0, -along.z, along.y}, {along.z, 0.0, -along.x}, {-along.y, along.x, 0.0}};
+  for (int i = 0; i < 3; ++i) put(get(at.m[kOfForce + i]) + by_unit_force[i], at.m[kOfForce + i]);
 }
 
 // Moments relative to a section that carries the moment m, from those in base axes.
-inline void turnMoments(const double (&m)[3], ElementTransfer& at) {
-  for (int k = 0; k < kColumns; ++k) {
-    double turned[3];
-    crossInto(at.phi[k], m[0], m[1], m[2], turned);
-    for (int i = 0; i < 3; ++i) at.m[k][i] -= turned[i];
-  }
+inline void turnMoments(const Vector& m, ElementTransfer& at) {
+  for (int k = 0; k < kColumns; ++k) put(get(at.m[k]) - cross(get(at.phi[k]), m), at.m[k]);
 }
 
 template <int kStages>
@@ -39,31 +33,30 @@ struct ChainKernel {
   // One fixed-point iteration of every element from its own start; then the gaps at the joints.
   static void iterate(const ChainState& chain, IterationResult& result) {
     const bool has_offset = hasOffset(chain);
-    SectionState at(chain.base_force, kZero);
+    SectionState at{};
+    at.n = get(chain.base_force);
     double change = 0.0, turn = 0.0, moment = 0.0;
     bool is_admissible = true, first = true;
     walk(
-        chain, [&](const Vector3d& piece, const Vector3d& weight) { at.cross(piece, weight); },
+        chain, [&](const Vector& piece, const Vector& weight) { at.pass(piece, weight); },
         [&](ElementState& e, bool last) {
           if (!first) {
-            turnBetween(e.R_start, *at.R, e.gap_turn);
-            const double(&r)[3] = e.gap_turn;
-            double turned[3];
-            crossInto(r, e.m_start[0], e.m_start[1], e.m_start[2], turned);
-            for (int i = 0; i < 3; ++i) e.gap_moment[i] = (*at.m)[i] - e.m_start[i] - turned[i];
-            turn = largerOf(squaredNorm(r), turn);
-            moment = largerOf(squaredNorm(e.gap_moment), moment);
+            const Vector gap = turnBetween(get(e.R_start), at.R), m = get(e.m_start), gap_moment = at.m - m - cross(gap, m);
+            put(gap, e.gap_turn);
+            put(gap_moment, e.gap_moment);
+            turn = largerOf(dot(gap, gap), turn);
+            moment = largerOf(dot(gap_moment, gap_moment), moment);
           }
           first = false;
-          copy(*at.n, e.n_start);
+          put(at.n, e.n_start);
           S::iterate(e);
           if (!last || has_offset) S::endRotation(e);
           at.leave(e);
           change += e.change;
           is_admissible = is_admissible && S::isAdmissible(e);
         });
-    if (has_offset) at.cross(chain.tip_offset, kZero);
-    for (int i = 0; i < 3; ++i) result.lacking[i] = chain.tip_moment[i] - (*at.m)[i];
+    if (has_offset) at.pass(get(chain.tip_offset), {});
+    put(get(chain.tip_moment) - at.m, result.lacking);
     result.change = change;
     result.turn = __builtin_sqrt(turn);
     result.moment = __builtin_sqrt(largerOf(squaredNorm(result.lacking), moment));
@@ -78,27 +71,31 @@ struct ChainKernel {
       const double change[kColumns] = {e->step_moment[0], e->step_moment[1], e->step_moment[2], 0.0, 0.0, 0.0,
                                        e->step_turn[0],   e->step_turn[1],   e->step_turn[2]};
       S::follow(*e, change);
+      Vector m = get(e->m_start);
       if (e != chain.elements) {
-        turnBy(e->step_turn, e->R_start);
-        turnVector(e->step_turn, e->m_start);
+        const Matrix turn = cayley(get(e->step_turn));
+        put(turn * get(e->R_start), e->R_start);
+        m = turn * m;
       }
-      for (int i = 0; i < 3; ++i) e->m_start[i] += e->step_moment[i];
+      put(m + get(e->step_moment), e->m_start);
     }
     return largest;
   }
 
   // Walks from base to tip; every element starts where the one before ends.
   static void march(const ChainState& chain, MarchMode mode, MarchResult& result) {
-    SectionState at(chain.base_force, chain.base_moment);
+    SectionState at{};
+    at.n = get(chain.base_force);
+    at.m = get(chain.base_moment);
     double change = 0.0, gap = 0.0;
     bool is_admissible = true;
     walk(
-        chain, [&](const Vector3d& piece, const Vector3d& weight) { at.cross(piece, weight); },
+        chain, [&](const Vector& piece, const Vector& weight) { at.pass(piece, weight); },
         [&](ElementState& e, bool) {
           at.enter(e, mode != MarchMode::kClose);
           if (mode == MarchMode::kClose && &e != chain.elements) {
-            const double moment[3] = {(*at.m)[0] - e.m_start[0], (*at.m)[1] - e.m_start[1], (*at.m)[2] - e.m_start[2]};
-            gap = largerOf(squaredNorm(moment), gap);
+            const Vector moment = at.m - get(e.m_start);
+            gap = largerOf(dot(moment, moment), gap);
           }
           switch (mode) {
             case MarchMode::kIterate: S::iterate(e); [[fallthrough]];
@@ -113,14 +110,14 @@ struct ChainKernel {
           change = largerOf(e.change, change);
           is_admissible = is_admissible && S::isAdmissible(e);
         });
-    if (hasOffset(chain)) at.cross(chain.tip_offset, kZero);
-    copy(*at.R, result.R_tip);
-    copy(at.p, result.p_tip);
-    double finite = 0.0;
-    for (int i = 0; i < 3; ++i) finite += result.residual[i] = (*at.m)[i] - chain.tip_moment[i];
-    result.gap = __builtin_sqrt(largerOf(squaredNorm(result.residual), gap));
+    if (hasOffset(chain)) at.pass(get(chain.tip_offset), {});
+    put(at.R, result.R_tip);
+    put(at.p, result.p_tip);
+    const Vector residual = at.m - get(chain.tip_moment);
+    put(residual, result.residual);
+    result.gap = __builtin_sqrt(largerOf(dot(residual, residual), gap));
     result.change = change;
-    result.is_admissible = is_admissible && __builtin_isfinite(finite);
+    result.is_admissible = is_admissible && __builtin_isfinite(residual.x + residual.y + residual.z);
   }
 
   // Shape of every element from its own start, as it is.
@@ -133,20 +130,21 @@ struct ChainKernel {
   // ElementKernel.
   static LinearisationResult linearise(const ChainState& chain, const Linearisation& how) {
     LinearisationResult result{0.0, 0};
-    SectionState at(chain.base_force, kZero);
+    SectionState at{};
+    at.n = get(chain.base_force);
     ElementState* before = nullptr;
-    const auto cross = [&](const Vector3d& piece, const Vector3d& weight) {
-      const SectionState::Rigid rigid = at.cross(piece, weight);
+    const auto pass = [&](const Vector& piece, const Vector& weight) {
+      const SectionState::Rigid rigid = at.pass(piece, weight);
       if (before) carrySensitivities(rigid.along, rigid.force, before->transfer);
     };
-    walk(chain, cross, [&](ElementState& e, bool) {
-      if (before) turnMoments(*at.m, before->transfer);
+    walk(chain, pass, [&](ElementState& e, bool) {
+      if (before) turnMoments(at.m, before->transfer);
       const double left = C::propagate(e, how.cold, how.with_force, before != nullptr, how.goal, how.with_adjoint);
       result.left = largerOf(left, result.left);
       before = &e;
       at.leave(e);
     });
-    if (hasOffset(chain)) cross(chain.tip_offset, kZero);
+    if (hasOffset(chain)) pass(get(chain.tip_offset), {});
     if (__builtin_isfinite(result.left))
       result.unstable = Joints::factorise(chain.elements, countElements(chain), how.clamped);
     return result;

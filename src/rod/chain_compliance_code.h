@@ -16,7 +16,7 @@ struct ChainCompliance {
   static LIVE_STIFFNESS_INLINE void addCompliance(ElementState& e) {
     copy(e.start_compliance, e.end_compliance);
     if (!e.is_arc) add(e.compliance, e.end_compliance);
-    if (!isZero(e.end_compliance)) shiftOne(e.offset_end, e.end_compliance);
+    if (!isZero(e.end_compliance)) shiftOne(get(e.offset_end), e.end_compliance);
     if (e.is_arc) add(e.compliance, e.end_compliance);  // about its end as it is
   }
 
@@ -24,29 +24,29 @@ struct ChainCompliance {
   class Passed {
    public:
     LIVE_STIFFNESS_INLINE void pass(ElementState& e) {
-      if (before_) before_ = moved(e.p_start, e.start_compliance);
+      if (before_) before_ = moved(get(e.p_start), e.start_compliance);
       else copy(kNoCompliance, e.start_compliance);
       addCompliance(e);
       before_ = &e.end_compliance;
-      for (int i = 0; i < 3; ++i) about_[i] = e.p_start[i] + e.offset_end[i];
+      about_ = get(e.p_start) + get(e.offset_end);
     }
     // About p.
-    LIVE_STIFFNESS_INLINE void finish(const double (&p)[3], PackedRow& out) const {
+    LIVE_STIFFNESS_INLINE void finish(const Vector& p, PackedRow& out) const {
       if (before_) moved(p, out);
       else copy(kNoCompliance, out);
     }
 
    private:
     static constexpr PackedRow kNoCompliance = {};
-    LIVE_STIFFNESS_INLINE const PackedRow* moved(const double (&p)[3], PackedRow& to) const {
-      const double d[3] = {p[0] - about_[0], p[1] - about_[1], p[2] - about_[2]};
+    LIVE_STIFFNESS_INLINE const PackedRow* moved(const Vector& p, PackedRow& to) const {
+      const Vector d = p - about_;
       copy(*before_, to);
-      if (d[0] != 0.0 || d[1] != 0.0 || d[2] != 0.0) shiftOne(d, to);
+      if (d.x != 0.0 || d.y != 0.0 || d.z != 0.0) shiftOne(d, to);
       return &to;
     }
 
     const PackedRow* before_ = nullptr;
-    double about_[3] = {};
+    Vector about_{};
   };
 
   static double accumulate(const ChainState& chain, double accuracy, const double (&p_tip)[3], PackedRow& compliance) {
@@ -59,16 +59,16 @@ struct ChainCompliance {
           passed.pass(e);
           error += e.compliance_error;
         });
-    passed.finish(p_tip, compliance);
+    passed.finish(get(p_tip), compliance);
     return error;
   }
 
   static double placeChain(const ChainState& chain, double accuracy, MarchResult& result, PackedRow& compliance) {
-    SectionState at(kZero, kZero);
+    SectionState at{};
     Passed passed;
     double error = 0.0;
     walk(
-        chain, [&](const Vector3d& piece, const Vector&) { at.cross(piece, kZero); },
+        chain, [&](const Vector& piece, const Vector&) { at.pass(piece, {}); },
         [&](ElementState& e, bool) {
           at.enter(e, true);
           const double bending = e.length * e.length * squaredNorm(e.rest_curvature);
@@ -83,9 +83,9 @@ struct ChainCompliance {
           error += e.compliance_error;
           at.leave(e);
         });
-    if (hasOffset(chain)) at.cross(chain.tip_offset, kZero);
-    copy(*at.R, result.R_tip);
-    copy(at.p, result.p_tip);
+    if (hasOffset(chain)) at.pass(get(chain.tip_offset), {});
+    put(at.R, result.R_tip);
+    put(at.p, result.p_tip);
     passed.finish(at.p, compliance);
     return error;
   }

@@ -20,7 +20,7 @@ LIVE_STIFFNESS_INLINE bool bendsAsArc(const ElementState& e) {
 
 struct Arc {
   PackMatrix R;
-  Pack r[3];                     // from the start
+  Lanes3 r;                      // from the start
   Pack compliance[kPackedRow];   // about the section
 };
 
@@ -33,9 +33,10 @@ LIVE_STIFFNESS_INLINE void setPlane(ElementState& e) {
   e.arc_square = straight ? 0.0 : square;
   e.arc_curvature = straight ? 0.0 : root;
   e.arc_axis[0] = ax, e.arc_axis[1] = ay;
-  rotate(e.R_start, {ay, -ax, 0.0}, e.arc_q1);
-  rotate(e.R_start, {ax, ay, 0.0}, e.arc_q2);
-  rotate(e.R_start, {0.0, 0.0, 1.0}, e.arc_q3);
+  const Matrix R = get(e.R_start);
+  put(ay * R.x - ax * R.y, e.arc_q1);
+  put(ax * R.x + ay * R.y, e.arc_q2);
+  put(R.z, e.arc_q3);
 }
 
 LIVE_STIFFNESS_INLINE Arc arcTo(const ElementState& e, Pack s) {
@@ -50,8 +51,8 @@ LIVE_STIFFNESS_INLINE Arc arcTo(const ElementState& e, Pack s) {
   for (int i = 0; i < 3; ++i) {
     across[i] = d3 * q1[i] - d1 * q3[i];
     along[i] = d1 * q1[i] + d3 * q3[i];
-    arc.r[i] = r1 * q1[i] + r3 * q3[i];
   }
+  arc.r = {r1 * q1[0] + r3 * q3[0], r1 * q1[1] + r3 * q3[1], r1 * q1[2] + r3 * q3[2]};
   arc.R = {{ay * across[0] + ax * q2[0], ay * across[1] + ax * q2[1], ay * across[2] + ax * q2[2]},
            {ay * q2[0] - ax * across[0], ay * q2[1] - ax * across[1], ay * q2[2] - ax * across[2]},
            {along[0], along[1], along[2]}};
@@ -95,10 +96,8 @@ inline void placeArc(ElementState& e) {
   const Pack R[9] = {arc.R.x.x, arc.R.y.x, arc.R.z.x, arc.R.x.y, arc.R.y.y,
                       arc.R.z.y, arc.R.x.z, arc.R.y.z, arc.R.z.z};
   storeFirst(R, e.R_end);
-  for (int i = 0; i < 3; ++i) {
-    e.offset_end[i] = arc.r[i][0];
-    e.n_end[i] = e.m_end[i] = 0.0;
-  }
+  put(Vector{arc.r.x[0], arc.r.y[0], arc.r.z[0]}, e.offset_end);
+  for (int i = 0; i < 3; ++i) e.n_end[i] = e.m_end[i] = 0.0;
   storeFirst(arc.compliance, e.compliance);
   e.is_arc = e.unloaded = true;
   e.compliance_error = e.station_error = 0.0;

@@ -1,7 +1,7 @@
 #pragma once
 // Integrals along one element by Gauss collocation; each lane is one node, the last one the end of the element.
 
-#include "rod/packs.h"
+#include "rod/vector3_code.h"
 
 namespace live_stiffness {
 namespace {

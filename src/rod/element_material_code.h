@@ -50,20 +50,20 @@ struct Material {
   static LIVE_STIFFNESS_INLINE void improve(const ElementState& e, Vectors& g, Vectors& g_rate) {
     const GaussLegendre& t = table();
     const Pack h = splat(e.length);
-    double n_start[3], m_start[3], line_load[3];
-    rotateBack(e.R_start, e.n_start, n_start);
-    rotateBack(e.R_start, e.m_start, m_start);
-    rotateBack(e.R_start, e.line_load, line_load);
+    const Matrix R_start = get(e.R_start);
+    const Lanes3 n_start = splat(transposedTimes(R_start, get(e.n_start)));
+    const Lanes3 m_start = splat(transposedTimes(R_start, get(e.m_start)));
+    const Lanes3 line_load = splat(transposedTimes(R_start, get(e.line_load)));
     NodeRow rate[3];
     PackMatrix R[kVectors];
     for (int v = 0; v < kVectors; ++v) {
       R[v] = cayley(g.at[v]);
-      const Lanes3 n = splat(n_start) - (h * load(t.c, v)) * splat(line_load);
+      const Lanes3 n = n_start - (h * load(t.c, v)) * line_load;
       store(rate, v, cross(n, tangentOf(e, R[v].z, n)));
     }
     const Vectors moment = integral(rate);
     for (int v = 0; v < kVectors; ++v) {
-      g_rate.at[v] = cayleyRate(g.at[v], curvatureOf(e, R[v], splat(m_start) + h * moment.at[v]));
+      g_rate.at[v] = cayleyRate(g.at[v], curvatureOf(e, transposedTimes(R[v], m_start + h * moment.at[v])));
       store(rate, v, g_rate.at[v]);
     }
     const Vectors turn = integral(rate);
@@ -74,7 +74,7 @@ struct Material {
   static LIVE_STIFFNESS_INLINE void rotations(const ElementState& e, int stages, bool unloaded, bool improved,
                                               Vectors& g, Vectors& g_rate) {
     if (unloaded) {
-      const Lanes3 u = splat(e.rest_curvature);
+      const Lanes3 u = splat(get(e.rest_curvature));
       for (int v = 0; v < kVectors; ++v) {
         g.at[v] = cayleyOfRotation((splat(e.length) * load(table().c, v)) * u);
         g_rate.at[v] = cayleyRate(g.at[v], u);
@@ -84,7 +84,7 @@ struct Material {
     const NodeTransfer& from = transfer(stages);
     const double per_length = 1.0 / e.length;
     for (int j = 0; j < stages; ++j) {
-      const Lanes3 at = splat({e.g[0][j], e.g[1][j], e.g[2][j]});
+      const Lanes3 at = splat(Vector{e.g[0][j], e.g[1][j], e.g[2][j]});
       for (int v = 0; v < kVectors; ++v) {
         g.at[v] = g.at[v] + load(from.value[j], v) * at;
         g_rate.at[v] = g_rate.at[v] + (per_length * load(from.slope[j], v)) * at;
@@ -99,8 +99,8 @@ struct Material {
     const Pack h = splat(e.length);
     Vectors g{}, g_rate{};
     rotations(e, stages, unloaded, improved, g, g_rate);
-    const PackMatrix R_start = splatMatrix(e.R_start);
-    const Lanes3 n_start = splat(e.n_start), reach = h * splat(e.line_load);
+    const PackMatrix R_start = splat(get(e.R_start));
+    const Lanes3 n_start = splat(get(e.n_start)), reach = h * splat(get(e.line_load));
     PackMatrix R[kVectors];
     NodeRow tangent_row[3];
     Lanes3 tangent[kVectors], missing{};
@@ -161,9 +161,9 @@ struct Material {
     Pack row[kDenseRow];
     loadAcross(sums, row);
     Lanes3 g{row[kDenseRate], row[kDenseRate + 1], row[kDenseRate + 2]};
-    if (e.unloaded) g = cayleyOfRotation((e.length * load(s.fraction, v)) * splat(e.rest_curvature));
-    const PackMatrix R = splatMatrix(e.R_start) * cayley(g);
-    const Pack r[3] = {row[kDenseTangent], row[kDenseTangent + 1], row[kDenseTangent + 2]};
+    if (e.unloaded) g = cayleyOfRotation((e.length * load(s.fraction, v)) * splat(get(e.rest_curvature)));
+    const PackMatrix R = splat(get(e.R_start)) * cayley(g);
+    const Lanes3 r{row[kDenseTangent], row[kDenseTangent + 1], row[kDenseTangent + 2]};
     if (!isZero(e.start_compliance))
       for (int i = 0; i < kPackedSize; ++i) row[i] += e.start_compliance[i];
     shift(r, row);

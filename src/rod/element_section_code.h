@@ -6,18 +6,19 @@
 // with n, m the external loads only.
 
 #include "rod/element_kernel.h"
-#include "rod/matrix3_code.h"
+#include "rod/vector3_code.h"
 
 namespace live_stiffness {
 namespace {
 
-LIVE_STIFFNESS_INLINE Lanes3 curvatureOf(const ElementState& e, const PackMatrix& R, Lanes3 m) {
-  const Lanes3 b = transposedTimes(R, m);
+// b: R^T m.
+template <class T>
+LIVE_STIFFNESS_INLINE VectorOf<T> curvatureOf(const ElementState& e, const VectorOf<T>& b) {
   return {e.rest_curvature[0] + e.bend_xx * b.x + e.bend_xy * b.y,
           e.rest_curvature[1] + e.bend_xy * b.x + e.bend_yy * b.y, e.rest_curvature[2] + e.torsion * b.z};
 }
 
-LIVE_STIFFNESS_INLINE Lanes3 tangentOf(const ElementState& e, Lanes3 z, Lanes3 n) {
+LIVE_STIFFNESS_INLINE Lanes3 tangentOf(const ElementState& e, const Lanes3& z, const Lanes3& n) {
   return (1.0 + (e.elongation - e.shear) * dot(z, n)) * z + splat(e.shear) * n;
 }
 // R c R^T of both densities, using that R^T R = I: bend = yy I + (xx - yy) x x^T + ... + (torsion - yy) z z^T.
@@ -29,7 +30,7 @@ LIVE_STIFFNESS_INLINE PackMatrix bendOf(const ElementState& e, const PackMatrix&
   B.x.x += e.bend_yy, B.y.y += e.bend_yy, B.z.z += e.bend_yy;
   return B;
 }
-LIVE_STIFFNESS_INLINE PackMatrix stretchOf(const ElementState& e, Lanes3 z) {
+LIVE_STIFFNESS_INLINE PackMatrix stretchOf(const ElementState& e, const Lanes3& z) {
   const Lanes3 c = splat(e.elongation - e.shear) * z;
   PackMatrix S{z.x * c, z.y * c, z.z * c};
   S.x.x += e.shear, S.y.y += e.shear, S.z.z += e.shear;
@@ -62,7 +63,7 @@ LIVE_STIFFNESS_INLINE Pack series(const double (&k)[kTerms], Pack x) {
 }
 
 // 2 tan(|w| / 2) along w: the Cayley vector of the rotation vector w, |w| up to kMaxUnloadedBending.
-LIVE_STIFFNESS_INLINE Lanes3 cayleyOfRotation(Lanes3 w) {
+LIVE_STIFFNESS_INLINE Lanes3 cayleyOfRotation(const Lanes3& w) {
   const Pack x = dot(w, w);
   return (2.0 * series(kSine, x) / (2.0 - x * series(kCosine, x))) * w;
 }

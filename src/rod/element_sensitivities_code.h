@@ -51,10 +51,8 @@ struct Sensitivities : Collocation<kStages> {
       store(rate, v, m_rate);
     }
     const Rows moment = integral(t, rate);
-    double start[3] = {}, unit[3] = {};
-    unit[i] = 1.0;
-    if (kGroup == kOfMoment) start[i] = 1.0;
-    if (kGroup == kOfRotation) crossInto(unit, e.m_start[0], e.m_start[1], e.m_start[2], start);
+    const Vector unit{double(i == 0), double(i == 1), double(i == 2)};
+    const Vector start = kGroup == kOfMoment ? unit : kGroup == kOfRotation ? cross(unit, get(e.m_start)) : Vector{};
 #pragma GCC unroll 4
     for (int v = 0; v < kVectors; ++v) store(e.dm[k], v, splat(start) + moment.at[v]);
   }
@@ -94,8 +92,7 @@ struct Sensitivities : Collocation<kStages> {
         store(e.phi_rate[k], v, rate);
       }
       const Rows turn = integral(t, e.phi_rate[k]);
-      double start[3] = {};
-      if (kGroup == kOfRotation) start[i] = 1.0;
+      const Vector start = kGroup == kOfRotation ? Vector{double(i == 0), double(i == 1), double(i == 2)} : Vector{};
 #pragma GCC unroll 4
       for (int v = 0; v < kVectors; ++v) {
         const Lanes3 next = splat(start) + turn.at[v], step = next - load(e.phi[k], v);

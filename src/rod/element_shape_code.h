@@ -26,22 +26,21 @@ struct Shape : Collocation<kStages> {
   };
   static LIVE_STIFFNESS_INLINE Sections sections(const GaussLegendre& t, const ElementState& e) {
     const Pack h = splat(e.length);
-    double n_start[3], m_start[3], line_load[3];
-    rotateBack(e.R_start, e.n_start, n_start);
-    rotateBack(e.R_start, e.m_start, m_start);
-    rotateBack(e.R_start, e.line_load, line_load);
-    const double reach[3] = {e.length * line_load[0], e.length * line_load[1], e.length * line_load[2]};
+    const Matrix R_start = get(e.R_start);
+    const Lanes3 n_start = splat(transposedTimes(R_start, get(e.n_start)));
+    const Lanes3 m_start = splat(transposedTimes(R_start, get(e.m_start)));
+    const Lanes3 reach = h * splat(transposedTimes(R_start, get(e.line_load)));
     Sections all;
     StageRow m_rate[3];
     for (int v = 0; v < kVectors; ++v) {
       Section& section = all.at[v];
       section.R = cayley(load(e.g, v));
-      section.n = splat(n_start) - load(t.c, v) * splat(reach);
+      section.n = n_start - load(t.c, v) * reach;
       section.tangent = tangentOf(e, section.R.z, section.n);
       store(m_rate, v, cross(section.n, section.tangent));
     }
     const Rows moment = integral(t, m_rate);
-    for (int v = 0; v < kVectors; ++v) all.moment.at[v] = splat(m_start) + h * moment.at[v];
+    for (int v = 0; v < kVectors; ++v) all.moment.at[v] = m_start + h * moment.at[v];
     return all;
   }
 
@@ -50,7 +49,7 @@ struct Shape : Collocation<kStages> {
     const Pack h = splat(e.length);
     const Sections all = sections(t, e);
     for (int v = 0; v < kVectors; ++v)
-      store(e.g_rate, v, cayleyRate(load(e.g, v), curvatureOf(e, all.at[v].R, all.moment.at[v])));
+      store(e.g_rate, v, cayleyRate(load(e.g, v), curvatureOf(e, transposedTimes(all.at[v].R, all.moment.at[v]))));
     const Rows next = integral(t, e.g_rate);
     Pack change{}, size{};
     for (int v = 0; v < kVectors; ++v) {
@@ -69,7 +68,7 @@ struct Shape : Collocation<kStages> {
     const GaussLegendre& t = table();
     const Pack h = splat(e.length);
     const Sections all = sections(t, e);
-    const PackMatrix R_start = splatMatrix(e.R_start);
+    const PackMatrix R_start = splat(get(e.R_start));
     for (int v = 0; v < kVectors; ++v) {
       storeMatrix(e.R, v, R_start * all.at[v].R);
       store(e.tangent, v, R_start * all.at[v].tangent);
@@ -87,24 +86,13 @@ struct Shape : Collocation<kStages> {
   // n, m: of the vector that holds the end.
   static LIVE_STIFFNESS_INLINE void endLoads(ElementState& e, const Lanes3& n, const Lanes3& m) {
     constexpr int kPackIndex = kStages - kPackSize * (kVectors - 1);
-    rotate(e.R_start, {n.x[kPackIndex], n.y[kPackIndex], n.z[kPackIndex]}, e.n_end);
-    rotate(e.R_start, {m.x[kPackIndex], m.y[kPackIndex], m.z[kPackIndex]}, e.m_end);
+    const Matrix R = get(e.R_start);
+    put(R * Vector{n.x[kPackIndex], n.y[kPackIndex], n.z[kPackIndex]}, e.n_end);
+    put(R * Vector{m.x[kPackIndex], m.y[kPackIndex], m.z[kPackIndex]}, e.m_end);
   }
 
   static LIVE_STIFFNESS_INLINE void endRotation(ElementState& e) {
-    const double g[3] = {e.g[0][kStages], e.g[1][kStages], e.g[2][kStages]};
-    const double k = 2.0 / (4.0 + g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
-    const double kg[3] = {k * g[0], k * g[1], k * g[2]};
-    const double xx = kg[0] * g[0], yy = kg[1] * g[1], zz = kg[2] * g[2];
-    const double xy = kg[0] * g[1], xz = kg[0] * g[2], yz = kg[1] * g[2];
-    const double x = 2.0 * kg[0], y = 2.0 * kg[1], z = 2.0 * kg[2];
-    double column[3];
-    const auto put = [&](int j) {
-      for (int i = 0; i < 3; ++i) e.R_end[3 * i + j] = column[i];
-    };
-    rotate(e.R_start, {1.0 - yy - zz, xy + z, xz - y}, column), put(0);
-    rotate(e.R_start, {xy - z, 1.0 - xx - zz, yz + x}, column), put(1);
-    rotate(e.R_start, {xz + y, yz - x, 1.0 - xx - yy}, column), put(2);
+    put(get(e.R_start) * cayley(Vector{e.g[0][kStages], e.g[1][kStages], e.g[2][kStages]}), e.R_end);
   }
 
   // The highest coefficient may be zero by accident; the one below it shows how large it could be.
@@ -128,12 +116,8 @@ struct Shape : Collocation<kStages> {
 
   static void resetGuess(ElementState& e) {
     const GaussLegendre& t = table();
-    double m[3];
-    rotateBack(e.R_start, e.m_start, m);
-    const double u[3] = {e.rest_curvature[0] + e.bend_xx * m[0] + e.bend_xy * m[1],
-                         e.rest_curvature[1] + e.bend_xy * m[0] + e.bend_yy * m[1],
-                         e.rest_curvature[2] + e.torsion * m[2]};
-    const double quarter = 0.25 * e.length * e.length * squaredNorm(u), third = (quarter < 1.0 ? quarter : 1.0) / 3.0;
+    const Vector u = curvatureOf(e, transposedTimes(get(e.R_start), get(e.m_start)));
+    const double quarter = 0.25 * e.length * e.length * dot(u, u), third = (quarter < 1.0 ? quarter : 1.0) / 3.0;
     for (int v = 0; v < kVectors; ++v) {
       const Pack c = load(t.c, v);
       store(e.g, v, (e.length * c * (1.0 + third * c * c)) * splat(u));  // 2 tan(x / 2) from x
@@ -161,15 +145,9 @@ struct Shape : Collocation<kStages> {
       e.m_start[i] += extrapolation * (m - e.m_before[i]);
       e.m_before[i] = m;
     }
-    double R[9];
-    copy(e.R_start, R);
-    if (extrapolation != 0.0) {
-      double further[3];
-      turnBetween(e.R_before, R, further);
-      for (double& x : further) x *= extrapolation;
-      turnBy(further, e.R_start);
-    }
-    copy(R, e.R_before);
+    const Matrix R = get(e.R_start);
+    if (extrapolation != 0.0) put(cayley(extrapolation * turnBetween(get(e.R_before), R)) * R, e.R_start);
+    put(R, e.R_before);
     for (int k = 0; k < columns; ++k) {
       extrapolate(extrapolation, e.phi[k], e.phi_before[k]);
       extrapolate(extrapolation, e.phi_rate[k], e.phi_rate_before[k]);
@@ -198,8 +176,8 @@ struct Shape : Collocation<kStages> {
 
   static void placeUnloaded(ElementState& e) {
     const GaussLegendre& t = table();
-    const Lanes3 u = splat(e.rest_curvature);
-    const PackMatrix R_start = splatMatrix(e.R_start);
+    const Lanes3 u = splat(get(e.rest_curvature));
+    const PackMatrix R_start = splat(get(e.R_start));
     for (int v = 0; v < kVectors; ++v) {
       const Pack s = splat(e.length) * load(t.c, v);
       const Lanes3 w = s * u, turn{w.y, -w.x, Pack{}};  // turn: w x e3
@@ -220,8 +198,8 @@ struct Shape : Collocation<kStages> {
 
   // A rotation phi of a section in base axes, R -> exp(hat(phi)) R, changes g at the rate phi - g x phi / 2 + g (g . phi) / 4.
   static void follow(ElementState& e, const double (&change)[kColumns]) {
-    const PackMatrix R_start = splatMatrix(e.R_start);
-    const double own[3] = {change[kOfRotation], change[kOfRotation + 1], change[kOfRotation + 2]};
+    const PackMatrix R_start = splat(get(e.R_start));
+    const Vector own{change[kOfRotation], change[kOfRotation + 1], change[kOfRotation + 2]};
     for (int v = 0; v < kVectors; ++v) {
       Lanes3 turn = Lanes3{} - splat(own);
       for (int k = 0; k < kColumns; ++k)

@@ -47,23 +47,21 @@ struct Joints {
   // many directions the equilibrium is not stable: M B^-1 = D B^-1 - S is the stiffness of the joint for a clamped start of the
   // element, a pivot of the block Cholesky factorisation of the second variation. clamped: T cannot turn either.
   static int factorise(ElementState* elements, int count, bool clamped) {
-    Three S{};
+    Matrix S{};
     int unstable = 0;
     for (int k = count - 1; k >= 0; --k) {
       ElementState& e = elements[k];
       const ElementTransfer& t = e.transfer;
       const bool clamped_end = clamped && k == count - 1;
-      const Three B = Three::ofColumns(t.phi + kOfMoment), D = Three::ofColumns(t.m + kOfMoment), B_inverse = B.inverse();
-      const Three M = clamped_end ? B : D - S * B;
-      if (!clamped_end) unstable += (M * B_inverse).notPositive();
-      const Three M_inverse = M.inverse();
-      M_inverse.copyTo(e.pivot_inverse);
+      const Matrix B = columns(t.phi + kOfMoment), D = columns(t.m + kOfMoment);
+      const Matrix M = clamped_end ? B : D - S * B;
+      if (!clamped_end) unstable += notPositive(M * inverse(B));
+      const Matrix M_inverse = inverse(M);
+      put(M_inverse, e.pivot_inverse);
       if (k == 0) break;
-      const Three A = Three::ofColumns(t.phi + kOfRotation), C = Three::ofColumns(t.m + kOfRotation);
-      S = S * A - C;
-      if (clamped_end) S = Three{} - A;
-      S = M_inverse * S;
-      S.copyTo(e.stiffness);
+      const Matrix A = columns(t.phi + kOfRotation), C = columns(t.m + kOfRotation);
+      S = M_inverse * (clamped_end ? Matrix{} - A : S * A - C);
+      put(S, e.stiffness);
     }
     return unstable;
   }
@@ -71,27 +69,27 @@ struct Joints {
   // Newton's step for the gaps at the joints and the moment that T lacks; shorter if a section would turn by more than
   // `most`, rad. Returns the largest turn, as it would have been.
   static double correct(ElementState* elements, int count, const double (&lacking)[3], double most) {
-    Vector s = vectorOf(lacking);
+    Vector s = get(lacking);
     for (int k = count - 1; k >= 0; --k) {
       ElementState& e = elements[k];
-      s = Three::of(e.pivot_inverse) * s;
-      copy(s.at, e.step_moment);
-      if (k > 0) s = Three::of(e.stiffness) * vectorOf(e.gap_turn) + s - vectorOf(e.gap_moment);
+      s = get(e.pivot_inverse) * s;
+      put(s, e.step_moment);
+      if (k > 0) s = get(e.stiffness) * get(e.gap_turn) + s - get(e.gap_moment);
     }
     Vector phi{};
     double largest = 0.0;
     for (int k = 0; k < count; ++k) {
       ElementState& e = elements[k];
-      Vector m = vectorOf(e.step_moment), turned{};
+      Vector m = get(e.step_moment), turned{};
       if (k > 0) {
-        phi = phi + vectorOf(e.gap_turn);
-        m = m + Three::of(e.stiffness) * phi;
-        turned = Three::ofColumns(e.transfer.phi + kOfRotation) * phi;
+        phi = phi + get(e.gap_turn);
+        m = m + get(e.stiffness) * phi;
+        turned = columns(e.transfer.phi + kOfRotation) * phi;
       }
-      copy(m.at, e.step_moment);
-      copy(phi.at, e.step_turn);
-      phi = turned + Three::ofColumns(e.transfer.phi + kOfMoment) * m;
-      largest = largerOf(squaredNorm(phi.at), largest);
+      put(m, e.step_moment);
+      put(phi, e.step_turn);
+      phi = turned + columns(e.transfer.phi + kOfMoment) * m;
+      largest = largerOf(dot(phi, phi), largest);
     }
     largest = __builtin_sqrt(largest);
     const double scale = largest > most ? most / largest : 1.0;
@@ -106,13 +104,15 @@ struct Joints {
   // With the adjoint-weighted residual a^T G a of every element, a the columns of its start, if `corrected`.
   static void tangent(ElementState* elements, int count, bool corrected, double* C) {
     Six s[3] = {Six::unit(3), Six::unit(4), Six::unit(5)};  // moment at the end of an element whose start is held
-    Three S{};
+    Matrix S{};
     for (int k = count - 1; k >= 0; --k) {
       ElementState& e = elements[k];
-      Three by_force = Three{} - Three::ofColumns(e.transfer.m + kOfForce);
-      if (k < count - 1) by_force = by_force + S * Three::ofColumns(e.transfer.phi + kOfForce);
+      Matrix from = Matrix{} - columns(e.transfer.m + kOfForce);
+      if (k < count - 1) from = from + S * columns(e.transfer.phi + kOfForce);
+      double by_force[9];
+      put(from, by_force);
       for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) s[i].at[j / kPackSize][j % kPackSize] += by_force.at[i][j];
+        for (int j = 0; j < 3; ++j) s[i].at[j / kPackSize][j % kPackSize] += by_force[3 * i + j];
       Six at_start[3] = {};
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) at_start[i].add(e.pivot_inverse[3 * i + j], s[j]);
@@ -120,7 +120,7 @@ struct Joints {
         s[i] = at_start[i];
         for (int v = 0; v < Six::kPacks; ++v) store(e.by_wrench[i], v, s[i].at[v]);
       }
-      if (k > 0) S = Three::of(e.stiffness);
+      if (k > 0) S = get(e.stiffness);
     }
     Six twist[6] = {}, start[kColumns] = {};
     for (int j = 0; j < 3; ++j) start[kOfForce + j] = Six::unit(j);

@@ -1,7 +1,6 @@
 #pragma once
-// SIMD vectors of LIVE_STIFFNESS_PACK doubles (packs), and 3-vectors and 3x3 matrices of them: each lane is one Gauss node
-// (or one station). Included by one translation unit for each instruction set. Everything has internal linkage, so that code
-// of one instruction set cannot be linked into another.
+// SIMD vectors of LIVE_STIFFNESS_PACK doubles (packs). Included by one translation unit for each instruction set. Everything
+// has internal linkage, so that code of one instruction set cannot be linked into another.
 
 #include "rod/element_state.h"
 
@@ -20,6 +19,11 @@ LIVE_STIFFNESS_INLINE void storeUnaligned(double* to, Pack x) {
   *reinterpret_cast<Unaligned*>(to) = x;
 }
 LIVE_STIFFNESS_INLINE Pack splat(double x) { return x - Pack{}; }  // minus: 0 + x would not be x for -0
+// The number as a T: a double or a pack.
+template <class T>
+LIVE_STIFFNESS_INLINE T splatAs(double x) {
+  return x - T{};
+}
 
 LIVE_STIFFNESS_INLINE double sum(Pack x) {
   double result = x[0];
@@ -99,82 +103,6 @@ LIVE_STIFFNESS_INLINE void loadAcross(const double (*in)[n], Pack* rows) {
     }
     storeSquareAcross(square, out, 0);
   }
-}
-
-struct Lanes3 {
-  Pack x, y, z;
-};
-LIVE_STIFFNESS_INLINE Lanes3 operator+(Lanes3 a, Lanes3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-LIVE_STIFFNESS_INLINE Lanes3 operator-(Lanes3 a, Lanes3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-LIVE_STIFFNESS_INLINE Lanes3 operator*(Pack k, Lanes3 a) { return {k * a.x, k * a.y, k * a.z}; }
-LIVE_STIFFNESS_INLINE Pack dot(Lanes3 a, Lanes3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-LIVE_STIFFNESS_INLINE Lanes3 cross(Lanes3 a, Lanes3 b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-template <int n>
-LIVE_STIFFNESS_INLINE Lanes3 load(const double (&rows)[3][n], int v) {
-  return {load(rows[0], v), load(rows[1], v), load(rows[2], v)};
-}
-template <int n>
-LIVE_STIFFNESS_INLINE void store(double (&rows)[3][n], int v, Lanes3 a) {
-  store(rows[0], v, a.x);
-  store(rows[1], v, a.y);
-  store(rows[2], v, a.z);
-}
-LIVE_STIFFNESS_INLINE Lanes3 splat(const double (&a)[3]) { return {splat(a[0]), splat(a[1]), splat(a[2])}; }
-
-// Columns x, y, z.
-struct PackMatrix {
-  Lanes3 x, y, z;
-};
-LIVE_STIFFNESS_INLINE Lanes3 operator*(const PackMatrix& M, Lanes3 a) { return a.x * M.x + a.y * M.y + a.z * M.z; }
-LIVE_STIFFNESS_INLINE Lanes3 transposedTimes(const PackMatrix& M, Lanes3 a) { return {dot(M.x, a), dot(M.y, a), dot(M.z, a)}; }
-LIVE_STIFFNESS_INLINE PackMatrix splatMatrix(const double (&M)[9]) {  // row-major
-  return {{splat(M[0]), splat(M[3]), splat(M[6])}, {splat(M[1]), splat(M[4]), splat(M[7])},
-          {splat(M[2]), splat(M[5]), splat(M[8])}};
-}
-LIVE_STIFFNESS_INLINE PackMatrix operator*(const PackMatrix& A, const PackMatrix& B) { return {A * B.x, A * B.y, A * B.z}; }
-// Times hat(a) from the right.
-LIVE_STIFFNESS_INLINE PackMatrix timesHat(const PackMatrix& M, Lanes3 a) {
-  return {a.z * M.y - a.y * M.z, a.x * M.z - a.z * M.x, a.y * M.x - a.x * M.y};
-}
-template <int n>
-LIVE_STIFFNESS_INLINE PackMatrix loadMatrix(const double (*rows)[n], int v) {
-  return {{load(rows[0], v), load(rows[3], v), load(rows[6], v)},
-          {load(rows[1], v), load(rows[4], v), load(rows[7], v)},
-          {load(rows[2], v), load(rows[5], v), load(rows[8], v)}};
-}
-template <int n>
-LIVE_STIFFNESS_INLINE void storeMatrix(double (*rows)[n], int v, const PackMatrix& M) {
-  store(rows[0], v, M.x.x), store(rows[1], v, M.y.x), store(rows[2], v, M.z.x);
-  store(rows[3], v, M.x.y), store(rows[4], v, M.y.y), store(rows[5], v, M.z.y);
-  store(rows[6], v, M.x.z), store(rows[7], v, M.y.z), store(rows[8], v, M.z.z);
-}
-// Symmetric matrices, rows xx xy xz yy yz zz.
-template <int n>
-LIVE_STIFFNESS_INLINE PackMatrix loadSymmetric(const double (*rows)[n], int v) {
-  const Pack xx = load(rows[0], v), xy = load(rows[1], v), xz = load(rows[2], v), yy = load(rows[3], v),
-              yz = load(rows[4], v), zz = load(rows[5], v);
-  return {{xx, xy, xz}, {xy, yy, yz}, {xz, yz, zz}};
-}
-template <int n>
-LIVE_STIFFNESS_INLINE void storeSymmetric(double (*rows)[n], int v, const PackMatrix& M) {
-  store(rows[0], v, M.x.x), store(rows[1], v, M.y.x), store(rows[2], v, M.z.x);
-  store(rows[3], v, M.y.y), store(rows[4], v, M.z.y), store(rows[5], v, M.z.z);
-}
-
-// Rotation matrix of the Cayley vector g = 2 tan(angle / 2) axis: I + (hat(g) + hat(g)^2 / 2) 4 / (4 + |g|^2).
-LIVE_STIFFNESS_INLINE PackMatrix cayley(Lanes3 g) {
-  const Pack k = 2.0 / (4.0 + dot(g, g));
-  const Lanes3 kg = k * g, t = kg + kg;
-  const Pack xx = kg.x * g.x, yy = kg.y * g.y, zz = kg.z * g.z;
-  const Pack xy = kg.x * g.y, xz = kg.x * g.z, yz = kg.y * g.z;
-  return {{1.0 - yy - zz, xy + t.z, xz - t.y}, {xy - t.z, 1.0 - xx - zz, yz + t.x}, {xz + t.y, yz - t.x, 1.0 - xx - yy}};
-}
-
-// Rate of g of a section that turns with the curvature u (body axes): R' = R hat(u).
-LIVE_STIFFNESS_INLINE Lanes3 cayleyRate(Lanes3 g, Lanes3 u) {
-  return u + splat(0.5) * (cross(g, u) + (0.5 * dot(g, u)) * g);
 }
 
 }  // namespace

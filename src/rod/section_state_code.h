@@ -14,50 +14,34 @@ LIVE_STIFFNESS_INLINE void add(const PackedRow& more, PackedRow& to) {
   for (int i = 0; i < kPackedRow / kPackSize; ++i) store(to, i, load(to, i) + load(more, i));
 }
 
-constexpr double kIdentity[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}, kZero[3] = {};
-
 // The present position of a loop along a chain: pose of the section, and loads there (base axes).
-class SectionState {
- public:
-  LIVE_STIFFNESS_INLINE SectionState(const double (&force)[3], const double (&moment)[3]) : n(&force), m(&moment) {}
+struct SectionState {
+  Matrix R{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+  Vector p{}, n, m;
 
   LIVE_STIFFNESS_INLINE void enter(ElementState& e, bool with_moment) const {
-    copy(*R, e.R_start);
-    copy(p, e.p_start);
-    copy(*n, e.n_start);
-    if (with_moment) copy(*m, e.m_start);
+    put(R, e.R_start);
+    put(p, e.p_start);
+    put(n, e.n_start);
+    if (with_moment) put(m, e.m_start);
   }
   LIVE_STIFFNESS_INLINE void leave(const ElementState& e) {
-    R = &e.R_end, n = &e.n_end, m = &e.m_end;
-    for (int i = 0; i < 3; ++i) p[i] = e.p_start[i] + e.offset_end[i];
+    R = get(e.R_end), n = get(e.n_end), m = get(e.m_end);
+    p = get(e.p_start) + get(e.offset_end);
   }
   // Across a rigid part (axes of the section); weight: its own, at its middle, N. Returns the part in base axes and the
   // force that acts on its lever.
   struct Rigid {
-    double along[3], force[3];
+    Vector along, force;
   };
-  LIVE_STIFFNESS_INLINE Rigid cross(const double (&piece)[3], const double (&weight)[3]) {
-    Rigid rigid;
-    double moment[3];
-    rotate(*R, piece, rigid.along);
-    for (int i = 0; i < 3; ++i) rigid.force[i] = (*n)[i] - 0.5 * weight[i];  // the weight has half the lever
-    crossInto(rigid.along, rigid.force[0], rigid.force[1], rigid.force[2], moment);
-    for (int i = 0; i < 3; ++i)
-      p[i] += rigid.along[i], own_n_[i] = (*n)[i] - weight[i], own_m_[i] = (*m)[i] - moment[i];
-    n = &own_n_, m = &own_m_;
+  LIVE_STIFFNESS_INLINE Rigid pass(const Vector& piece, const Vector& weight) {
+    const Rigid rigid{R * piece, n - 0.5 * weight};  // the weight has half the lever
+    p = p + rigid.along;
+    n = n - weight;
+    m = m - cross(rigid.along, rigid.force);
     return rigid;
   }
-
-  const double (*R)[9] = &kIdentity;
-  double p[3] = {};
-  const double (*n)[3];
-  const double (*m)[3];
-
- private:
-  double own_n_[3], own_m_[3];
 };
-
-typedef double Vector3d[3];
 
 // Calls on_link(link's length, weight) and on_element(element, it is the last body), base to tip.
 template <class OnLink, class OnElement>
@@ -66,8 +50,7 @@ LIVE_STIFFNESS_INLINE void walk(const ChainState& chain, OnLink on_link, OnEleme
   for (int i = 0; i < chain.part_count; ++i) {
     const ChainPart& part = chain.parts[i];
     if (part.segment < 0) {
-      const double* g = chain.gravity;
-      on_link({0.0, 0.0, part.length}, {part.mass * g[0], part.mass * g[1], part.mass * g[2]});
+      on_link(Vector{0.0, 0.0, part.length}, part.mass * get(chain.gravity));
     } else {
       const bool last_part = i + 1 == chain.part_count;
       for (int k = chain.element_count[part.segment]; k > 0; --k, ++e) on_element(*e, last_part && k == 1);
