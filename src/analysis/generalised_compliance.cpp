@@ -16,6 +16,12 @@ constexpr double kColumnGoal = 1e-14;
 constexpr double kPieceBending = 0.3;
 constexpr int kMostPieces = 64;
 
+// Parts of a step's columns.
+template <class Columns>
+auto rotation(const Columns& columns) { return columns.template topRows<3>(); }
+template <class Columns>
+auto moment(const Columns& columns) { return columns.template bottomRows<3>(); }
+
 int pieceCount(const RodElement& element, int stages) {
   const ElementState& s = element.state;
   const double compliance = std::max({s.bend_xx, s.bend_yy, s.torsion});
@@ -28,30 +34,24 @@ int pieceCount(const RodElement& element, int stages) {
 
 }  // namespace
 
-// Walks from base to tip and leaves a stop wherever one is asked for.
+// Walks from base to tip, in steps, and leaves a stop wherever one is asked for.
 class GeneralisedCompliance::Walk {
  public:
   Walk(GeneralisedCompliance& result, const ElementKernel& kernel) : result_(result), kernel_(kernel) {}
 
   const Pose& X() const { return X_; }
 
-  void stopFor(int place) {
-    result_.stop_of_place_[place] = static_cast<int>(result_.stops_.size());
-    stop();
-  }
-  void stop() {
-    result_.stops_.push_back({X_, from_base_, from_last_});
-    from_last_ = Transfer();
-  }
+  void stopFor(int place) { result_.stop_of_place_[place] = {X_, result_.steps_.size()}; }
 
   // Rigid piece; n: the force that turns with it, the mean of that before and after.
   void rigid(const Vector3& along, const Vector3& n) {
-    Transfer step;
-    step.of_state.block<3, 3>(3, 0) = -hat(along);
-    step.of_state.block<3, 3>(6, 0) = -hat(n) * hat(along);
-    step.of_force.bottomRows<3>() = -hat(along);
+    Step step;
+    const Matrix3 lever = hat(along), none = Matrix3::Zero(), one = Matrix3::Identity();
+    step.of_rotation << one, -lever, -hat(n) * lever;
+    step.of_moment << none, none, one;
+    step.of_force << none, none, -lever;
+    result_.steps_.push_back(step);
     X_.p += along;
-    advance(step);
   }
 
   // From one part of an element to another (0 to 1), from the state that the last piece left.
@@ -66,7 +66,17 @@ class GeneralisedCompliance::Walk {
       RodElement piece = element;
       piece.state.length = element.state.length * (to - from) / count;
       piece.setStart(X_, n_, m_);
-      result_.ok_ = integrate(kernel_, true, piece) && addPiece(piece);
+      result_.ok_ = integrate(kernel_, true, piece) && std::isfinite(propagate(kernel_, kColumnGoal, piece));
+      const ElementTransfer& t = piece.state.transfer;
+      const auto columns = [&](int first) {
+        return (Columns() << sensitivityMatrix(t.phi, first), sensitivityMatrix(t.p, first), sensitivityMatrix(t.m, first))
+            .finished();
+      };
+      Step step;
+      step.of_rotation = columns(kOfRotation);
+      step.of_moment = columns(kOfMoment);
+      step.of_force = columns(kOfForce);
+      result_.steps_.push_back(step);
       X_ = piece.X_end();
       n_ = piece.n_end();
       m_ = piece.m_end();
@@ -74,36 +84,15 @@ class GeneralisedCompliance::Walk {
   }
 
  private:
-  bool addPiece(RodElement& piece) {
-    if (!std::isfinite(propagate(kernel_, kColumnGoal, piece))) return false;
-    Transfer step;
-    const auto columns = [&](int first) {
-      const ElementTransfer& t = piece.state.transfer;
-      return (Eigen::Matrix<double, 9, 3>() << sensitivityMatrix(t.phi, first), sensitivityMatrix(t.p, first),
-              sensitivityMatrix(t.m, first)).finished();
-    };
-    step.of_state.leftCols<3>() = columns(kOfRotation);
-    step.of_state.rightCols<3>() = columns(kOfMoment);
-    step.of_force = columns(kOfForce);
-    advance(step);
-    return true;
-  }
-
-  void advance(const Transfer& step) {
-    from_base_ = from_base_.then(step);
-    from_last_ = from_last_.then(step);
-  }
-
   GeneralisedCompliance& result_;
   const ElementKernel& kernel_;
   Pose X_;
   Vector3 n_ = Vector3::Zero(), m_ = Vector3::Zero();
-  Transfer from_base_, from_last_;
 };
 
 GeneralisedCompliance::GeneralisedCompliance(const StiffnessModel& model, const StiffnessWorkspace& workspace,
                                              const Wrench& tip_wrench, const std::vector<SectionPlace>& places)
-    : stop_of_place_(places.size(), -1) {
+    : stop_of_place_(places.size()) {
   const Scene& scene = model.scene();
   FaultList faults("places of a generalised compliance");
   for (const SectionPlace& place : places) {
@@ -147,43 +136,44 @@ GeneralisedCompliance::GeneralisedCompliance(const StiffnessModel& model, const 
     n -= part.mass * loads.gravity;
   }
   if (!chain.tip_offset.isZero(0.0)) walk.rigid(walk.X().R * chain.tip_offset, n);
-  walk.stop();
   for (size_t i = 0; i < places.size(); ++i)
-    if (places[i].segment == SectionPlace::kTip) stop_of_place_[i] = static_cast<int>(stops_.size()) - 1;
-  const Matrix3 base_to_tip = stops_.back().from_base.of_state.bottomRightCorner<3, 3>();
-  ok_ = ok_ && std::isfinite(1.0 / base_to_tip.determinant());
+    if (places[i].segment == SectionPlace::kTip) walk.stopFor(static_cast<int>(i));
+  // No moment may be left at T.
+  Matrix3 beyond = Matrix3::Zero();
+  for (auto step = steps_.rbegin(); step != steps_.rend(); ++step) {
+    step->pivot_inverse = (moment(step->of_moment) - beyond * rotation(step->of_moment)).inverse();
+    step->by_force = beyond * rotation(step->of_force) - moment(step->of_force);
+    step->stiffness = step->pivot_inverse * (beyond * rotation(step->of_rotation) - moment(step->of_rotation));
+    beyond = step->stiffness;
+    ok_ = ok_ && step->pivot_inverse.allFinite();
+  }
 }
 
-// The wrench [f; M] at stop a leaves the force beyond it as it is and lowers the moment by M there. So, with the
-// unknown change of base moment m0, states up to a are those of (m0, f), and beyond it those of the state at a less M.
-// No moment may be left at T.
+// The wrench [f; M] at stop a leaves the force beyond it as it is and lowers the moment by M there. Beyond a, the moment at
+// the start of a step is S phi; up to a it is S phi + s, s from the sweep from a to the base. The same sweep as of the tip's
+// tangent (docs/derivation.md, section 5): nothing grows along it, however long the arm is.
 Matrix6 GeneralisedCompliance::between(int from, int to) const {
-  using Matrix93 = Eigen::Matrix<double, 9, 3>;
   if (!ok_) return Matrix6::Zero();
-  const int a = stop_of_place_[from], b = stop_of_place_[to], last = static_cast<int>(stops_.size()) - 1;
-  const Transfer& to_a = stops_[a].from_base;
-  const auto beyond = [&](int stop) {
-    Eigen::Matrix<double, 9, 9> product = Eigen::Matrix<double, 9, 9>::Identity();
-    for (int i = a + 1; i <= stop; ++i) product = stops_[i].from_last.of_state * product;
-    return product;
-  };
-  const Matrix93 of_m0 = to_a.of_state.rightCols<3>();
-  Matrix93 of_M = Matrix93::Zero();
-  of_M.bottomRows<3>() = -Matrix3::Identity();
-  const Eigen::Matrix<double, 3, 9> left_at_tip = beyond(last).bottomRows<3>();
-  const auto inverse = (left_at_tip * of_m0).partialPivLu();
-  const Matrix3 m0_of_f = -inverse.solve(left_at_tip * to_a.of_force);
-  const Matrix3 m0_of_M = -inverse.solve(left_at_tip * of_M);
-  Eigen::Matrix<double, 9, 6> state;
-  if (b <= a) {
-    const Matrix93 b_of_m0 = stops_[b].from_base.of_state.rightCols<3>();
-    state << b_of_m0 * m0_of_f + stops_[b].from_base.of_force, b_of_m0 * m0_of_M;
-  } else {
-    state << of_m0 * m0_of_f + to_a.of_force, of_m0 * m0_of_M + of_M;
-    state = (beyond(b) * state).eval();
+  using Columns6 = Eigen::Matrix<double, 3, 6>;
+  const size_t a = stop_of_place_[from].step, b = stop_of_place_[to].step;
+  Columns6 s = Columns6::Zero(), phi = Columns6::Zero(), p = Columns6::Zero();
+  s.rightCols<3>().setIdentity();
+  std::vector<Columns6> moments(a);
+  for (size_t k = a; k-- > 0;) {
+    s.leftCols<3>() += steps_[k].by_force;
+    moments[k] = s = steps_[k].pivot_inverse * s;
+  }
+  for (size_t k = 0; k < b; ++k) {
+    const Step& step = steps_[k];
+    Columns6 m = step.stiffness * phi;
+    if (k < a) m += moments[k];
+    Eigen::Matrix<double, 6, 6> end = step.of_rotation.topRows<6>() * phi + step.of_moment.topRows<6>() * m;
+    if (k < a) end.leftCols<3>() += step.of_force.topRows<6>();
+    phi = end.topRows<3>();
+    p += end.bottomRows<3>();
   }
   Matrix6 C;
-  C << state.middleRows<3>(3), state.topRows<3>();
+  C << p, phi;
   return C;
 }
 

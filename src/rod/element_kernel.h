@@ -15,8 +15,6 @@ struct ElementKernel {
   // Moves the guess along with a change of rest curvature, given as an angle at the end of the element, rad.
   // `extrapolation`: this change as a multiple of the last one, or 0. Moves so many columns of the sensitivities, too.
   void (*predict)(ElementState&, const double (&turn)[3], double extrapolation, int columns);
-  // One fixed-point iteration over the nodes, from g to g; then the end values, change and size.
-  void (*iterate)(ElementState&);
   // Iterates until the shape has converged to rounding, then fills all of ElementState. False without convergence.
   bool (*integrate)(ElementState&);
   // Shape, and g, of a rod under u_rest alone. Exact, for at most kMaxUnloadedBending rad.

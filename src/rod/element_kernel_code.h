@@ -15,9 +15,9 @@ constexpr ElementKernel kernelOf() {
   using M = MaterialChoice<kStages>;
   using Chain = ChainKernel<kStages>;
   using Compliance = ChainCompliance<kStages>;
-  return {kStages,         S::resetGuess,   S::predict,   S::iterate, S::integrate, S::placeUnloaded, S::follow, C::propagate,
-          M::material,     Compliance::addCompliance, M::stations, Chain::iterate, Chain::evaluate, Chain::correct,
-          Chain::march,    Chain::linearise, Joints::tangent, Compliance::accumulate, Compliance::placeChain};
+  return {kStages, S::resetGuess, S::predict, S::integrate, S::placeUnloaded, S::follow, C::propagate, M::material,
+          Compliance::addCompliance, M::stations, Chain::iterate, Chain::evaluate, Chain::correct, Chain::march,
+          Chain::linearise, Joints::tangent, Compliance::accumulate, Compliance::placeChain};
 }
 
 }  // namespace

@@ -69,6 +69,23 @@ TEST(GeneralisedCompliance, IsReciprocalWithoutATipMoment) {
   }
 }
 
+// The product of transfers from base to tip would have no digit left.
+TEST(GeneralisedCompliance, OfALongHangingArmIsTheTangentAndReciprocal) {
+  const Scene one = paperScene(1);
+  Scene scene = one;
+  scene.gravity = 9.81 * Vector3::UnitZ();
+  for (int i = 1; i < 32; ++i) scene.chain.insert(scene.chain.end(), one.chain.begin(), one.chain.end());
+  Solved s(scene, pressures(6 * 32), kForce, 1e-10);
+  ASSERT_TRUE(s.solution.status.ok());
+  const GeneralisedCompliance C(s.model, s.workspace, kForce, {{}, {3, 0.4}, {20, 0.7}});
+  ASSERT_TRUE(C.ok());
+  const double length = scene.length();
+  EXPECT_LT(complianceError(C.between(0, 0), s.solution.compliance, length), 1e-9);  // ten times the solve's accuracy
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < a; ++b)
+      EXPECT_LT(complianceError(C.between(a, b), C.between(b, a).transpose(), length), 1e-9) << a << ", " << b;
+}
+
 TEST(GeneralisedCompliance, WithoutLoadIsTheMaterialComplianceUpToTheNearerPlace) {
   Solved s(weightlessPaperScene(2), pressures(12), Wrench::Zero());
   const GeneralisedCompliance C(s.model, s.workspace, Wrench::Zero(), kPlaces);

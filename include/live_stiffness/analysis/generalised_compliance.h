@@ -34,29 +34,27 @@ class GeneralisedCompliance {
   // compliance up to the place nearer to the base, shifted. Zero unless ok().
   Matrix6 between(int from, int to) const;
   // Pose of a place in B.
-  const Pose& pose(int place) const { return stops_[stop_of_place_[place]].X; }
+  const Pose& pose(int place) const { return stop_of_place_[place].X; }
 
  private:
-  // Linear map from a change of state [phi; dp; dm] (rotation, rad; position, m; moment, N m; base axes), and of the force
-  // that acts all along, to the change of state at a later section.
-  struct Transfer {
-    Eigen::Matrix<double, 9, 9> of_state = Eigen::Matrix<double, 9, 9>::Identity();
-    Eigen::Matrix<double, 9, 3> of_force = Eigen::Matrix<double, 9, 3>::Zero();
-
-    Transfer then(const Transfer& next) const {
-      return {next.of_state * of_state, next.of_state * of_force + next.of_force};
-    }
+  // Piece of an element, or rigid part. Columns: change of rotation (rad), position (m, relative to the start) and moment
+  // (N m) at its end, base axes, 9x3, by those of rotation and moment at its start and by a force that acts all along.
+  using Columns = Eigen::Matrix<double, 9, 3>;
+  struct Step {
+    Columns of_rotation, of_moment, of_force;
+    // S: the moment at its start by a rotation of it, with all that lies beyond. Of the sweep: the moment at its start by that
+    // at its end, and that at its end by a force.
+    Matrix3 stiffness = Matrix3::Zero(), pivot_inverse = Matrix3::Zero(), by_force = Matrix3::Zero();
   };
-  // A section at which the state is wanted. Transfers: from the base, and from the stop before (or the base).
   struct Stop {
     Pose X;
-    Transfer from_base, from_last;
+    size_t step = 0;  // first one beyond
   };
   class Walk;
 
   bool ok_ = true;
-  std::vector<Stop> stops_;  // in the order of the chain; the last one is T
-  std::vector<int> stop_of_place_;
+  std::vector<Step> steps_;  // base to tip
+  std::vector<Stop> stop_of_place_;
 };
 
 }  // namespace live_stiffness
