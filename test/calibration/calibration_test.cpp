@@ -7,6 +7,8 @@
 
 #include "calibration/calibration_report.h"
 #include "live_stiffness/checks.h"
+#include "live_stiffness/compliance/stiffness_model.h"
+#include "support/random_source.h"
 #include "support/scenes.h"
 #include "support/shared_data.h"
 #include "support/simulated_recording.h"
@@ -122,6 +124,45 @@ TEST(Calibration, LeftOutBlocksShowWhatAFreeFitHides) {
   EXPECT_EQ(fit.left_out.count, fit.used.count);
   EXPECT_GT(fit.left_out.mean, fit.used.mean);           // it predicts what it has not seen
   EXPECT_LT(fit.left_out.mean, 1.5 * fit.used.mean);     // and the model is the true one
+}
+
+// Twelve hanging segments, 0.5 m: far longer than what can be shot from the base. Recorded without noise by the model.
+TEST(Calibration, RecoversParametersOfALongArm) {
+  constexpr int kSegments = 12;
+  Scene scene = paperScene(1);
+  scene.chain.assign(kSegments, scene.chain.front());
+  scene.gravity = 9.81 * Vector3::UnitZ();
+  Scene known = scene;
+  for (int k = 0; k < kSegments; ++k) {
+    Segment& segment = segmentOf(known, k);
+    segment.length *= 1.01;
+    segment.section.youngs_modulus *= 1.1;
+    segment.section.shear_modulus *= 1.1;
+  }
+  const ChannelMap channels = ChannelMap::even(3 * kSegments, 6 * kSegments);
+  const CalibrationOptions options = whiteNoise();
+  const StiffnessModel model(known, options.model);
+  StiffnessWorkspace workspace = model.makeWorkspace();
+  RandomSource random(5);
+  Recording recording;
+  for (int i = 0; i < 40; ++i) {
+    RecordedSample& sample = recording.samples.emplace_back();
+    sample.time = i;
+    sample.pressures = Pressures::NullaryExpr(3 * kSegments, [&] { return random.uniform(0.0, 0.6e5); });
+    const StiffnessSolution solution = model.solve(channels.expand(sample.pressures), Wrench::Zero(), workspace);
+    ASSERT_TRUE(solution.status.ok());
+    sample.tip_position = solution.X_BT.p;
+    sample.tip_orientation = Eigen::Quaterniond(solution.X_BT.R);
+  }
+  const std::vector<SceneParameter> parameters{sceneParameter("youngs_modulus_pa", scene, channels),
+                                               sceneParameter("length_m", scene, channels)};
+  CalibrationResult result = calibrate(scene, channels, parameters, {use(std::move(recording))}, {}, options);
+  EXPECT_TRUE(result.converged) << result.message;
+  const Segment &expected = segmentOf(known, 0), &found = segmentOf(result.scene, 0);
+  // Without noise the priors still pull, by less than a thousandth of their sigmas.
+  EXPECT_NEAR(found.section.youngs_modulus / expected.section.youngs_modulus, 1.0, 1e-3);
+  EXPECT_NEAR(found.length / expected.length, 1.0, 1e-4);
+  EXPECT_LT(result.recordings[0].used.max, 1e-4);
 }
 
 std::vector<ComplianceRow> tableOf(const Scene& scene) {
