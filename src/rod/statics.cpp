@@ -34,16 +34,6 @@ void StaticsSolver::prepareUnloaded(Backbone& backbone) {
   prepare(chain_, DeadLoads(), backbone);
 }
 
-Vector3 StaticsSolver::baseMoment(const DeadLoads& loads, const Backbone& backbone) const {
-  Vector3 moment(backbone.elements[0].state.m_start), n = loads.baseForce(chain_);
-  for (const Chain::Part& part : chain_.parts) {
-    if (part.segment >= 0) break;
-    moment += part.length * Vector3::UnitZ().cross(n - 0.5 * part.mass * loads.gravity);
-    n -= part.mass * loads.gravity;
-  }
-  return moment;
-}
-
 // Moments with which the shape of the elements carries the loads.
 void StaticsSolver::balance(const DeadLoads& loads, Backbone& backbone) {
   const MarchResult without = march(chain_, loads, Vector3::Zero(), MarchMode::kShape, backbone);

@@ -52,9 +52,6 @@ class StaticsSolver {
   // Compliance of T under a dead wrench at T (base axes), by the derivative of the loaded equilibrium: tangent, 6x6.
   const Matrix6& tangentCompliance() const { return tangent_; }
 
-  // Total moment at the base, N m, base axes.
-  Vector3 baseMoment(const DeadLoads& loads, const Backbone& backbone) const;
-
   void reset();
 
  private:

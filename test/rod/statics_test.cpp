@@ -128,7 +128,7 @@ TEST(Statics, WithoutLoadIsTheUnloadedShape) {
   }
   StaticsSolver solver(scene, 1e-12);
   ASSERT_TRUE(solver.solve(DeadLoads(), backbone).converged);
-  EXPECT_TRUE(matrixNear(solver.baseMoment(DeadLoads(), backbone), Vector3::Zero(), 0.0));
+  EXPECT_TRUE(matrixNear(Vector3(backbone.elements[0].state.m_start), Vector3::Zero(), 0.0));
   Backbone closed(scene);
   closed.rest = backbone.rest;
   Matrix6 unused;

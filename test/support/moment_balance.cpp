@@ -31,8 +31,15 @@ Vector3 momentOfLoads(const StiffnessModel& model, const StiffnessWorkspace& wor
 }
 
 Vector3 baseMoment(const StiffnessModel& model, const StiffnessWorkspace& workspace, const Wrench& tip) {
+  const Chain& chain = workspace.statics().chain();
   const DeadLoads loads{model.scene().gravity.value_or(Vector3::Zero()), tip};
-  return workspace.statics().baseMoment(loads, workspace.backbone());
+  Vector3 moment(workspace.backbone().elements[0].state.m_start), n = loads.baseForce(chain);
+  for (const Chain::Part& part : chain.parts) {
+    if (part.segment >= 0) break;
+    moment += part.length * Vector3::UnitZ().cross(n - 0.5 * part.mass * loads.gravity);
+    n -= part.mass * loads.gravity;
+  }
+  return moment;
 }
 
 }  // namespace live_stiffness
