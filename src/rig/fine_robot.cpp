@@ -62,7 +62,10 @@ bool FineRobot::loadSegments(PressuresRef pressures, std::vector<LoadedSegment>&
   int first = 0;
   for (const Body& body : scene_.chain) {
     const auto* segment = std::get_if<Segment>(&body);
-    if (!segment) continue;
+    if (!segment) {
+      if (!segments.empty()) segments.back().links.push_back(std::get<Link>(body));
+      continue;
+    }
     const Chambers& chambers = segment->section.chambers;
     const auto own = pressures.segment(first, chambers.count());
     first += chambers.count();
@@ -85,98 +88,123 @@ bool FineRobot::inRange(PressuresRef pressures) const {
   return loadSegments(pressures, segments);
 }
 
-FineRobot::RodState FineRobot::integrateChain(const std::vector<LoadedSegment>& segments, const Vector3& gravity,
-                                              const Wrench& tip_wrench, const Vector3& base_moment) const {
-  // What the part beyond exerts: all weight and the tip force, less what is passed on the way.
-  Vector3 n = linear(tip_wrench) + scene_.tip_mass * gravity;
-  for (const LoadedSegment& segment : segments) n += segment.mass * gravity;
-  for (const Body& body : scene_.chain)
-    if (const auto* link = std::get_if<Link>(&body)) n += link->mass * gravity;
-
-  RodState state;
-  state.m = base_moment;
-  auto segment = segments.begin();
-  for (const Body& body : scene_.chain) {
-    if (const auto* link = std::get_if<Link>(&body)) {
-      const Vector3 along = link->length * (state.q * Vector3::UnitZ());
-      const Vector3 weight = link->mass * gravity;
-      n -= weight;
-      state.m -= along.cross(n) + 0.5 * along.cross(weight);
-      state.p += along;
-      continue;
-    }
-    const Vector3 line_load = segment->mass * gravity / segment->length;
-    using Numbers = Eigen::Matrix<double, 10, 1>;  // of q (x, y, z, w), p and m
-    const auto rate = [&](double s, const Numbers& at) {
-      const Eigen::Quaterniond q = Eigen::Quaterniond(at.head<4>()).normalized();
-      const Matrix3 R = q.toRotationMatrix();
-      const Vector3 force = n - s * line_load;
-      const Vector3 u = segment->rest_curvature + segment->c.bending_torsion * (R.transpose() * at.tail<3>());
-      const Vector3 dp = R * (Vector3::UnitZ() + segment->c.shear_elongation * (R.transpose() * force));
-      Numbers d;
-      d << 0.5 * (q * Eigen::Quaterniond(0.0, u.x(), u.y(), u.z())).coeffs(), dp, -dp.cross(force);
-      return d;
-    };
-    const double h = segment->length / kRodSteps;
-    Numbers numbers;
-    numbers << state.q.coeffs(), state.p, state.m;
-    for (int step = 0; step < kRodSteps; ++step) {
-      numbers = rungeKuttaStep(rate, step * h, h, numbers);
-      numbers.head<4>().normalize();
-    }
-    state = {Eigen::Quaterniond(numbers.head<4>()), numbers.segment<3>(4), numbers.tail<3>()};
-    n -= segment->mass * gravity;
-    ++segment;
+FineRobot::RodState FineRobot::pass(const LoadedSegment& segment, const Vector3& gravity, RodState state) {
+  const Vector3 line_load = segment.mass * gravity / segment.length;
+  using Numbers = Eigen::Matrix<double, 10, 1>;  // of q (x, y, z, w), p and m
+  const auto rate = [&](double s, const Numbers& at) {
+    const Eigen::Quaterniond q = Eigen::Quaterniond(at.head<4>()).normalized();
+    const Matrix3 R = q.toRotationMatrix();
+    const Vector3 force = state.n - s * line_load;
+    const Vector3 u = segment.rest_curvature + segment.c.bending_torsion * (R.transpose() * at.tail<3>());
+    const Vector3 dp = R * (Vector3::UnitZ() + segment.c.shear_elongation * (R.transpose() * force));
+    Numbers d;
+    d << 0.5 * (q * Eigen::Quaterniond(0.0, u.x(), u.y(), u.z())).coeffs(), dp, -dp.cross(force);
+    return d;
+  };
+  const double h = segment.length / kRodSteps;
+  Numbers numbers;
+  numbers << state.q.coeffs(), state.p, state.m;
+  for (int step = 0; step < kRodSteps; ++step) {
+    numbers = rungeKuttaStep(rate, step * h, h, numbers);
+    numbers.head<4>().normalize();
+  }
+  state = {Eigen::Quaterniond(numbers.head<4>()), numbers.segment<3>(4), numbers.tail<3>(),
+           state.n - segment.mass * gravity};
+  for (const Link& link : segment.links) {
+    const Vector3 along = link.length * (state.q * Vector3::UnitZ()), weight = link.mass * gravity;
+    state.m -= along.cross(state.n - 0.5 * weight);
+    state.n -= weight;
+    state.p += along;
   }
   return state;
 }
 
-// Moment left over at T: what the rod carries there less what acts there.
-Vector3 FineRobot::residual(const RodState& end, const Vector3& gravity, const Wrench& tip_wrench) const {
-  const Vector3 arm = end.q * scene_.tip_offset;
-  return end.m - angular(tip_wrench) - arm.cross(linear(tip_wrench) + scene_.tip_mass * gravity);
+// What lacks between the end of a segment and the start of the next one, `start`: rotation (rad) and moment, in `unit`.
+Vector6 FineRobot::jointGap(const RodState& end, const RodState& start, double unit) {
+  Vector6 gap;
+  gap << logSo3((end.q * start.q.conjugate()).toRotationMatrix()), (end.m - start.m) / unit;
+  return gap;
 }
 
+// The moment, in `unit`, that is left over at T: what the rod carries there less what acts there.
+Vector3 FineRobot::tipGap(const RodState& end, const Wrench& tip_wrench, double unit) const {
+  return (end.m - angular(tip_wrench) - (end.q * scene_.tip_offset).cross(end.n)) / unit;
+}
+
+// Multiple shooting: every segment has a start of its own, so that nothing grows along the robot; Newton's method on the gaps,
+// with finite differences of one segment at a time.
 bool FineRobot::newton(const std::vector<LoadedSegment>& segments, const Vector3& gravity, const Wrench& tip_wrench,
-                       Vector3& base_moment, RodState& end) const {
+                       std::vector<RodState>& starts, RodState& end) const {
   constexpr int kMaxIterations = 50;
+  constexpr double kDifference = 1e-7;
   // Moment that bends the robot by about a radian: the scale of all moments here.
   double bend_per_moment = 0.0;
-  for (const LoadedSegment& segment : segments) bend_per_moment += segment.length * segment.c.bending_torsion(0, 0);
+  Vector3 force = linear(tip_wrench) + scene_.tip_mass * gravity;
+  for (const LoadedSegment& segment : segments) {
+    bend_per_moment += segment.length * segment.c.bending_torsion(0, 0);
+    force += segment.mass * gravity;
+    for (const Link& link : segment.links) force += link.mass * gravity;
+  }
   const double unit = 1.0 / bend_per_moment;
+  const auto count = static_cast<Eigen::Index>(segments.size()), size = 6 * count - 3;
 
-  Vector3 m0 = base_moment;
-  end = integrateChain(segments, gravity, tip_wrench, m0);
-  Vector3 r = residual(end, gravity, tip_wrench);
+  // Gaps of all joints and T, with position and force at every start on the way.
+  const auto gapsOf = [&](std::vector<RodState>& at, RodState& tip) {
+    Eigen::VectorXd gaps(size);
+    at[0].n = force;
+    for (Eigen::Index k = 0; k < count; ++k) {
+      tip = pass(segments[k], gravity, at[k]);
+      if (k + 1 == count) break;
+      at[k + 1].p = tip.p;
+      at[k + 1].n = tip.n;
+      gaps.segment<6>(6 * k) = jointGap(tip, at[k + 1], unit);
+    }
+    gaps.tail<3>() = tipGap(tip, tip_wrench, unit);
+    return gaps;
+  };
+  // A start, turned and with more moment; the first one is clamped.
+  const auto moved = [&](RodState start, const Vector6& change) {
+    start.q = Eigen::Quaterniond(expSo3(change.head<3>())) * start.q;
+    start.m += unit * change.tail<3>();
+    return start;
+  };
+
+  Eigen::VectorXd gaps = gapsOf(starts, end);
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    if (r.norm() < 1e-12 * unit) {  // some ten times the rounding of kRodSteps steps
-      base_moment = m0;
-      return true;
-    }
-    Matrix3 J;
-    for (int k = 0; k < 3; ++k) {
-      const double h = 1e-6 * unit;
-      const Vector3 ahead = m0 + h * Vector3::Unit(k), behind = m0 - h * Vector3::Unit(k);
-      J.col(k) = (residual(integrateChain(segments, gravity, tip_wrench, ahead), gravity, tip_wrench) -
-                  residual(integrateChain(segments, gravity, tip_wrench, behind), gravity, tip_wrench)) / (2.0 * h);
-    }
-    const Vector3 step = -J.fullPivLu().solve(r);
+    if (gaps.norm() < 1e-12) return true;  // some ten times the rounding of kRodSteps steps
+    Eigen::MatrixXd J = Eigen::MatrixXd::Zero(size, size);
+    for (Eigen::Index k = 0; k < count; ++k)
+      for (int i = k == 0 ? 3 : 0; i < 6; ++i) {
+        const Eigen::Index column = 6 * k - 3 + i;
+        const RodState after = pass(segments[k], gravity, moved(starts[k], kDifference * Vector6::Unit(i)));
+        if (k + 1 < count)
+          J.block<6, 1>(6 * k, column) = (jointGap(after, starts[k + 1], unit) - gaps.segment<6>(6 * k)) / kDifference;
+        else
+          J.block<3, 1>(6 * k, column) = (tipGap(after, tip_wrench, unit) - gaps.tail<3>()) / kDifference;
+        if (k > 0) J(column - 3, column) = -1.0;  // of the gap before it; exact where that is zero
+      }
+    const Eigen::VectorXd step = -J.partialPivLu().solve(gaps);
     bool better = false;
     for (double factor = 1.0; factor > 1e-3 && !better; factor *= 0.5) {
-      const Vector3 next = m0 + factor * step;
-      const RodState next_end = integrateChain(segments, gravity, tip_wrench, next);
-      const Vector3 next_r = residual(next_end, gravity, tip_wrench);
-      better = next_r.norm() < r.norm();
+      std::vector<RodState> next = starts;
+      RodState next_end;
+      for (Eigen::Index k = 0; k < count; ++k) {
+        Vector6 change = Vector6::Zero();
+        if (k > 0) change = factor * step.segment<6>(6 * k - 3);
+        else change.tail<3>() = factor * step.head<3>();
+        next[k] = moved(starts[k], change);
+      }
+      const Eigen::VectorXd next_gaps = gapsOf(next, next_end);
+      better = next_gaps.norm() < gaps.norm();
       if (better) {
-        m0 = next;
+        starts = next;
         end = next_end;
-        r = next_r;
+        gaps = next_gaps;
       }
     }
     if (!better) break;
   }
-  base_moment = m0;
-  return r.norm() < 1e-10 * unit;  // rounding stopped it, and the pose is good to 1e-10 of the length
+  return gaps.norm() < 1e-10;  // rounding stopped it, and the pose is good to 1e-10 of the length
 }
 
 std::optional<Pose> FineRobot::solve(PressuresRef pressures, const Wrench& tip_wrench) {
@@ -184,17 +212,23 @@ std::optional<Pose> FineRobot::solve(PressuresRef pressures, const Wrench& tip_w
   if (!tip_wrench.allFinite() || !loadSegments(pressures, segments)) return std::nullopt;
   const Vector3 gravity = scene_.gravity.value_or(Vector3::Zero());
   RodState end;
-  Vector3 base_moment = base_moment_;
-  if (!newton(segments, gravity, tip_wrench, base_moment, end)) {
+  if (starts_.empty() || !newton(segments, gravity, tip_wrench, starts_, end)) {
     // From nothing to the full load, which stays on the branch that the robot is on.
-    base_moment.setZero();
+    starts_.assign(1, RodState());
+    for (const Body& body : scene_.chain) {
+      if (std::holds_alternative<Segment>(body)) break;
+      starts_[0].p.z() += std::get<Link>(body).length;
+    }
+    for (const LoadedSegment& segment : segments) starts_.push_back(pass(segment, Vector3::Zero(), starts_.back()));
+    starts_.pop_back();
     constexpr int kLoadIncrements = 40;
     for (int k = 1; k <= kLoadIncrements; ++k) {
       const double share = static_cast<double>(k) / kLoadIncrements;
-      if (!newton(segments, share * gravity, share * tip_wrench, base_moment, end)) return std::nullopt;
+      if (newton(segments, share * gravity, share * tip_wrench, starts_, end)) continue;
+      starts_.clear();
+      return std::nullopt;
     }
   }
-  base_moment_ = base_moment;
   const Matrix3 R = end.q.toRotationMatrix();
   return Pose{R, end.p + R * scene_.tip_offset};
 }

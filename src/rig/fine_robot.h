@@ -3,8 +3,8 @@
 //
 // Shares only the scene, the section's moments and the Lie group with the product. The load path is the limit of
 // infinitely many steps, by Runge-Kutta over the load; the rod is integrated by classical Runge-Kutta on quaternion,
-// position and moment with kRodSteps steps a segment; the base moment is found by Newton with finite differences.
-// Slow (about a millisecond a solve) and simple, so that an error would have to be made twice to go unseen.
+// position and moment with kRodSteps steps a segment; the start of every segment is found by Newton with finite differences.
+// Slow (milliseconds a solve) and simple, so that an error would have to be made twice to go unseen.
 
 #include <optional>
 #include <vector>
@@ -32,28 +32,30 @@ class FineRobot {
   bool inRange(PressuresRef pressures) const;
 
  private:
-  // One segment after the load path: its stretched length and what it is made of per stretched length.
+  // One segment after the load path: its stretched length and what it is made of per stretched length; and the rigid links
+  // beyond it, up to the next one.
   struct LoadedSegment {
     double length = 0.0;                         // lam l0, m
     Vector3 rest_curvature = Vector3::Zero();    // 1/m, section axes
     ComplianceDensity c;
     double mass = 0.0;                           // kg
+    std::vector<Link> links;
   };
+  // Of a section: orientation, position (m), and moment (N m) and force (N) that what lies beyond exerts; base axes.
   struct RodState {
     Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
-    Vector3 p = Vector3::Zero();  // m
-    Vector3 m = Vector3::Zero();  // N m
+    Vector3 p = Vector3::Zero(), m = Vector3::Zero(), n = Vector3::Zero();
   };
 
   bool loadSegments(PressuresRef pressures, std::vector<LoadedSegment>& segments) const;
-  RodState integrateChain(const std::vector<LoadedSegment>& segments, const Vector3& gravity, const Wrench& tip_wrench,
-                          const Vector3& base_moment) const;
-  Vector3 residual(const RodState& end, const Vector3& gravity, const Wrench& tip_wrench) const;
+  static RodState pass(const LoadedSegment& segment, const Vector3& gravity, RodState state);
+  static Vector6 jointGap(const RodState& end, const RodState& start, double unit);
+  Vector3 tipGap(const RodState& end, const Wrench& tip_wrench, double unit) const;
   bool newton(const std::vector<LoadedSegment>& segments, const Vector3& gravity, const Wrench& tip_wrench,
-              Vector3& base_moment, RodState& end) const;
+              std::vector<RodState>& starts, RodState& end) const;
 
   Scene scene_;
-  Vector3 base_moment_ = Vector3::Zero();  // of the last equilibrium, N m, base axes
+  std::vector<RodState> starts_;  // of each segment, at the last equilibrium
 };
 
 }  // namespace live_stiffness

@@ -59,6 +59,14 @@ TEST(FineRobot, AgreesWithTheModelForTwoSegments) {
   expectAgreement(sceneFile("paper_two_segments"), 0.8e5, 0.02, 5e-4);
 }
 
+// Far longer than what can be shot from the base.
+TEST(FineRobot, AgreesWithTheModelForALongHangingArm) {
+  Scene scene = sceneFile("paper_one_segment");
+  scene.chain.assign(10, scene.chain.front());
+  scene.gravity = 9.81 * Vector3::UnitZ();
+  expectAgreement(scene, 0.6e5, 0.01, 1e-4);
+}
+
 TEST(FineRobot, AgreesWithTheModelForHeavyLinksAndAnOffsetTip) {
   Scene scene = sceneFile("stiff_flop_recorded");
   scene.gravity = Vector3(3.0, -2.0, 9.0);  // not along any axis
