@@ -45,8 +45,7 @@ std::optional<SceneParameter> forceSensorParameter(const std::string& name, cons
     if (name != number.key) return;
     const double low = prior->reach > 0.0 ? value - prior->reach : number.range.low;
     const double high = prior->reach > 0.0 ? value + prior->reach : number.range.high;
-    found = SceneParameter{name, ParameterKind::kForceSensor, {}, value, value, prior->sigma, low, high, number.unit,
-                           1e-3 * prior->sigma};
+    found = SceneParameter{name, nullptr, {}, value, value, prior->sigma, low, high, number.unit, 1e-3 * prior->sigma};
   });
   return found;
 }
