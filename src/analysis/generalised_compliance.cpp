@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "live_stiffness/checks.h"
 #include "rod/backbone.h"
@@ -10,6 +11,7 @@
 namespace live_stiffness {
 namespace {
 
+constexpr int kRotation = 0, kPosition = 3, kMoment = 6, kForce = 9;  // of a state of GeneralisedCompliance
 constexpr double kColumnGoal = 1e-14;
 // Pieces are short enough for elements of the most stages to be exact to rounding, both where the rod bends and where
 // the columns do.
@@ -41,15 +43,15 @@ class GeneralisedCompliance::Walk {
   }
   void stop() {
     result_.stops_.push_back({X_, from_base_, from_last_});
-    from_last_ = Transfer();
+    from_last_.setIdentity();
   }
 
   // Rigid piece; n: the force that turns with it, the mean of that before and after.
   void rigid(const Vector3& along, const Vector3& n) {
-    Transfer step;
-    step.of_state.block<3, 3>(3, 0) = -hat(along);
-    step.of_state.block<3, 3>(6, 0) = -hat(n) * hat(along);
-    step.of_force.bottomRows<3>() = -hat(along);
+    Transfer step = Transfer::Identity();
+    step.block<3, 3>(kPosition, kRotation) = -hat(along);
+    step.block<3, 3>(kMoment, kRotation) = -hat(n) * hat(along);
+    step.block<3, 3>(kMoment, kForce) = -hat(along);
     X_.p += along;
     advance(step);
   }
@@ -76,29 +78,25 @@ class GeneralisedCompliance::Walk {
  private:
   bool addPiece(RodElement& piece) {
     if (!std::isfinite(propagate(kernel_, kColumnGoal, piece))) return false;
-    Transfer step;
-    const auto columns = [&](int first) {
-      const ElementTransfer& t = piece.state.transfer;
-      return (Eigen::Matrix<double, 9, 3>() << sensitivityMatrix(t.phi, first), sensitivityMatrix(t.p, first),
-              sensitivityMatrix(t.m, first)).finished();
-    };
-    step.of_state.leftCols<3>() = columns(kOfRotation);
-    step.of_state.rightCols<3>() = columns(kOfMoment);
-    step.of_force = columns(kOfForce);
+    Transfer step = Transfer::Identity();
+    const ElementTransfer& t = piece.state.transfer;
+    for (const auto& [start, column] : {std::pair(kRotation, kOfRotation), {kMoment, kOfMoment}, {kForce, kOfForce}})
+      step.block<9, 3>(0, start) << sensitivityMatrix(t.phi, column), sensitivityMatrix(t.p, column),
+          sensitivityMatrix(t.m, column);
     advance(step);
     return true;
   }
 
   void advance(const Transfer& step) {
-    from_base_ = from_base_.then(step);
-    from_last_ = from_last_.then(step);
+    from_base_ = step * from_base_;
+    from_last_ = step * from_last_;
   }
 
   GeneralisedCompliance& result_;
   const ElementKernel& kernel_;
   Pose X_;
   Vector3 n_ = Vector3::Zero(), m_ = Vector3::Zero();
-  Transfer from_base_, from_last_;
+  Transfer from_base_ = Transfer::Identity(), from_last_ = Transfer::Identity();
 };
 
 GeneralisedCompliance::GeneralisedCompliance(const StiffnessModel& model, const StiffnessWorkspace& workspace,
@@ -150,41 +148,35 @@ GeneralisedCompliance::GeneralisedCompliance(const StiffnessModel& model, const 
   walk.stop();
   for (size_t i = 0; i < places.size(); ++i)
     if (places[i].segment == SectionPlace::kTip) stop_of_place_[i] = static_cast<int>(stops_.size()) - 1;
-  const Matrix3 base_to_tip = stops_.back().from_base.of_state.bottomRightCorner<3, 3>();
-  ok_ = ok_ && std::isfinite(1.0 / base_to_tip.determinant());
+  ok_ = ok_ && std::isfinite(1.0 / stops_.back().from_base.block<3, 3>(kMoment, kMoment).determinant());
 }
 
-// The wrench [f; M] at stop a leaves the force beyond it as it is and lowers the moment by M there. So, with the
-// unknown change of base moment m0, states up to a are those of (m0, f), and beyond it those of the state at a less M.
-// No moment may be left at T.
+// The wrench [f; M] at stop a changes force and moment by f and M up to a only. So, with the unknown change of base moment m0,
+// states up to a are those of (m0, f), and beyond it those of the state at a less (M, f). No moment may be left at T.
 Matrix6 GeneralisedCompliance::between(int from, int to) const {
-  using Matrix93 = Eigen::Matrix<double, 9, 3>;
   if (!ok_) return Matrix6::Zero();
-  const int a = stop_of_place_[from], b = stop_of_place_[to], last = static_cast<int>(stops_.size()) - 1;
-  const Transfer& to_a = stops_[a].from_base;
+  using States = Eigen::Matrix<double, 12, 6>;  // by the wrench
+  const int a = stop_of_place_[from], b = stop_of_place_[to];
   const auto beyond = [&](int stop) {
-    Eigen::Matrix<double, 9, 9> product = Eigen::Matrix<double, 9, 9>::Identity();
-    for (int i = a + 1; i <= stop; ++i) product = stops_[i].from_last.of_state * product;
+    Transfer product = Transfer::Identity();
+    for (int i = a + 1; i <= stop; ++i) product = stops_[i].from_last * product;
     return product;
   };
-  const Matrix93 of_m0 = to_a.of_state.rightCols<3>();
-  Matrix93 of_M = Matrix93::Zero();
-  of_M.bottomRows<3>() = -Matrix3::Identity();
-  const Eigen::Matrix<double, 3, 9> left_at_tip = beyond(last).bottomRows<3>();
-  const auto inverse = (left_at_tip * of_m0).partialPivLu();
-  const Matrix3 m0_of_f = -inverse.solve(left_at_tip * to_a.of_force);
-  const Matrix3 m0_of_M = -inverse.solve(left_at_tip * of_M);
-  Eigen::Matrix<double, 9, 6> state;
-  if (b <= a) {
-    const Matrix93 b_of_m0 = stops_[b].from_base.of_state.rightCols<3>();
-    state << b_of_m0 * m0_of_f + stops_[b].from_base.of_force, b_of_m0 * m0_of_M;
+  // Just beyond a, with m0 = 0.
+  States state = States::Zero();
+  state.leftCols<3>() = stops_[a].from_base.middleCols<3>(kForce);
+  state.block<3, 3>(kForce, 0) -= Matrix3::Identity();
+  state.block<3, 3>(kMoment, 3) -= Matrix3::Identity();
+  const Eigen::Matrix<double, 3, 12> left_at_tip = beyond(static_cast<int>(stops_.size()) - 1).middleRows<3>(kMoment);
+  const Eigen::Matrix<double, 12, 3> of_m0 = stops_[a].from_base.middleCols<3>(kMoment);
+  const Matrix3X6 m0 = -(left_at_tip * of_m0).partialPivLu().solve(left_at_tip * state);
+  if (b > a) {
+    state = (beyond(b) * (state + of_m0 * m0)).eval();
   } else {
-    state << of_m0 * m0_of_f + to_a.of_force, of_m0 * m0_of_M + of_M;
-    state = (beyond(b) * state).eval();
+    state = stops_[b].from_base.middleCols<3>(kMoment) * m0;
+    state.leftCols<3>() += stops_[b].from_base.middleCols<3>(kForce);
   }
-  Matrix6 C;
-  C << state.middleRows<3>(3), state.topRows<3>();
-  return C;
+  return (Matrix6() << state.middleRows<3>(kPosition), state.middleRows<3>(kRotation)).finished();
 }
 
 }  // namespace live_stiffness

@@ -37,16 +37,9 @@ class GeneralisedCompliance {
   const Pose& pose(int place) const { return stops_[stop_of_place_[place]].X; }
 
  private:
-  // Linear map from a change of state [phi; dp; dm] (rotation, rad; position, m; moment, N m; base axes), and of the force
-  // that acts all along, to the change of state at a later section.
-  struct Transfer {
-    Eigen::Matrix<double, 9, 9> of_state = Eigen::Matrix<double, 9, 9>::Identity();
-    Eigen::Matrix<double, 9, 3> of_force = Eigen::Matrix<double, 9, 3>::Zero();
-
-    Transfer then(const Transfer& next) const {
-      return {next.of_state * of_state, next.of_state * of_force + next.of_force};
-    }
-  };
+  // Linear map from a change of state [phi; dp; dm; df] (rotation, rad; position, m; moment, N m; force, N; base axes), where
+  // the force is that which acts all along, to the change of state at a later section.
+  using Transfer = Eigen::Matrix<double, 12, 12>;
   // A section at which the state is wanted. Transfers: from the base, and from the stop before (or the base).
   struct Stop {
     Pose X;
