@@ -23,15 +23,6 @@ Scene sceneOf(const ParallelRod& rod) {
   return scene;
 }
 
-// [f; m] or [v; w], both parts turned.
-Matrix6 turned(const Matrix6& M, const Matrix3& R) {
-  Matrix6 result;
-  for (int i = 0; i < 6; i += 3)
-    for (int j = 0; j < 6; j += 3)
-      result.block<3, 3>(i, j).noalias() = R * M.block<3, 3>(i, j) * R.transpose();
-  return result;
-}
-
 using Columns = Eigen::Map<const Eigen::Matrix<double, 3, kColumns>>;
 
 }  // namespace
@@ -80,7 +71,12 @@ void ClampedRod::changeLoad(const Vector6& change) {
 
 void ClampedRod::placeStraight() {
   load_.setZero();
+  forgetShape();
+}
+
+void ClampedRod::forgetShape() {
   nodes_hold_guess_ = has_sensitivities_ = false;
+  prepare(chain_, loads(), backbone_);
 }
 
 MarchResult ClampedRod::iterateOnce() {
@@ -138,7 +134,7 @@ double ClampedRod::linearise(double goal) {
   stiffness.bottomRows<3>().noalias() =
       m.rightCols<3>() * load_of_end.topRows<3>() + m.leftCols<3>() * load_of_end.bottomRows<3>();
   const Matrix3& R = X_BD_.R;
-  stiffness_ = turned(stiffness, R);
+  stiffness_ = complianceInBodyAxes(stiffness, R.transpose());
   load_of_twist_.leftCols<3>().noalias() = load_of_end.leftCols<3>() * R.transpose();
   load_of_twist_.rightCols<3>().noalias() = load_of_end.rightCols<3>() * R.transpose();
 
@@ -149,8 +145,8 @@ double ClampedRod::linearise(double goal) {
   const Vector3 turn = R_end * (backbone_.rest[0].c.bending_torsion * (R_end.transpose() * end_moment_));
   linear(twist_of_length_) = R * (p.rightCols<3>() * weight + tangent);
   angular(twist_of_length_) = R * (phi.rightCols<3>() * weight + turn);
-  linear(wrench_of_length_).setZero();
-  angular(wrench_of_length_) = R * (m.rightCols<3>() * weight - tangent.cross(f));
+  wrench_of_length_ = -stiffness_ * twist_of_length_;
+  angular(wrench_of_length_) += R * (m.rightCols<3>() * weight - tangent.cross(f));
   return stiffness_.allFinite() ? left : kInfinity;
 }
 
@@ -165,8 +161,7 @@ bool ClampedRod::choose() {
   angular(now.tip) = Vector3::UnitX() * std::max(load_.tail<3>().norm(), end_moment_.norm());
   if (!discretisation_.choose(now, backbone_)) return false;
   discretisation_.apply(backbone_);
-  nodes_hold_guess_ = has_sensitivities_ = false;
-  prepare(chain_, loads(), backbone_);
+  forgetShape();
   return true;
 }
 
@@ -179,29 +174,22 @@ bool ClampedRod::refine(double buckling_factor) {
   if (count == Backbone::kMaxElements) return false;
   backbone_.element_count[0] = std::min(Backbone::kMaxElements, wanted);
   backbone_.resize(backbone_.element_count, stages);
-  nodes_hold_guess_ = has_sensitivities_ = false;
-  prepare(chain_, loads(), backbone_);
+  forgetShape();
   return true;
 }
 
 Wrench ClampedRod::endWrench() const {
-  Wrench wrench;
-  linear(wrench) = X_BD_.R * load_.head<3>();
-  angular(wrench) = X_BD_.R * end_moment_;
-  return wrench;
+  return (Wrench() << X_BD_.R * load_.head<3>(), X_BD_.R * end_moment_).finished();
 }
 
 Wrench ClampedRod::baseWrench() const {
-  Wrench wrench;
-  linear(wrench) = X_BD_.R * loads().baseForce(chain_);
-  angular(wrench) = X_BD_.R * load_.tail<3>();
-  return wrench;
+  return (Wrench() << X_BD_.R * loads().baseForce(chain_), X_BD_.R * load_.tail<3>()).finished();
 }
 
 Matrix6 ClampedRod::materialCompliance(double accuracy) {
   Matrix6 compliance;
   accumulateMaterial(chain_, accuracy, backbone_, compliance);
-  return turned(compliance, X_BD_.R);
+  return complianceInBodyAxes(compliance, X_BD_.R.transpose());
 }
 
 double ClampedRod::bendingOf(const Vector6& load) const {

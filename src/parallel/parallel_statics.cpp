@@ -56,12 +56,9 @@ bool ParallelStatics::chordIteration(Unknown unknown, ParallelReport& report) {
     const double error = std::max(change, report.step);
     if (!(error < kLargestStep) || (growing += error > last) > 2) return false;
     const bool at_rounding = error <= kRounding && error >= 0.5 * last;
-    if (error <= goal || at_rounding) {
-      coupling_.makeStep(unknown, 1.0);  // to first order, for pose and loads
-      return true;
-    }
+    coupling_.makeStep(unknown, 1.0);  // the last one to first order, for pose and loads
+    if (error <= goal || at_rounding) return true;
     last = error;
-    coupling_.makeStep(unknown, 1.0);
   }
   return false;
 }

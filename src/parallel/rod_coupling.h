@@ -75,9 +75,12 @@ class RodCoupling {
   void addStiffness(size_t i, const Matrix6& K, Matrix6& sum) const;
 
   struct Snapshot {
+    struct Rod {
+      Vector6 load;
+      double length;
+    };
     Pose X_BP;
-    std::vector<Vector6> loads;
-    std::vector<double> lengths;
+    std::vector<Rod> rods;
   };
 
   const ParallelScene& scene_;
