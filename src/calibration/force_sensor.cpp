@@ -75,7 +75,7 @@ ForceReadings::ForceReadings(const Recording& recording) {
 }
 
 Wrench ForceReadings::atTip(const ForceSensorMount& mount, double time, const Matrix3& R_BT) const {
-  return mount.atTip(valueAt(readings_, placeIn(times_, time + mount.delay)), R_BT);
+  return mount.atTip(interpolated(times_, readings_, time + mount.delay), R_BT);
 }
 
 }  // namespace live_stiffness

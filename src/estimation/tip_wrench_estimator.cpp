@@ -208,7 +208,7 @@ void TipWrenchEstimator::publish(const StiffnessSolution& solution, double time)
   estimate_.stiffness_scale = filter_->stiffnessScale();
   estimate_.stiffness_scale_deviation = filter_->stiffnessScaleDeviation();
   estimate_.contact = contact_;
-  estimate_.X_BT = filter_->withModelError(solution.X_BT);
+  estimate_.X_BT = filter_->withModelError(solution.X_BT, filter_->belief().x);
   estimate_.model_error = filter_->modelError();
   estimate_.solution = solution;
   has_estimate_ = true;

@@ -56,15 +56,9 @@ bool RodCoupling::integrateAll() {
   return true;
 }
 
-bool RodCoupling::chooseAll() {
+bool RodCoupling::changesAny(bool (ClampedRod::*change)()) {
   bool changed = false;
-  for (ClampedRod& rod : rods_) changed = rod.choose() || changed;
-  return changed;
-}
-
-bool RodCoupling::refineAllForLoad() {
-  bool changed = false;
-  for (ClampedRod& rod : rods_) changed = rod.refineForLoad() || changed;
+  for (ClampedRod& rod : rods_) changed = (rod.*change)() || changed;
   return changed;
 }
 

@@ -35,8 +35,7 @@ class RodCoupling {
   // Converged shapes of all rods. False if one cannot be found.
   bool integrateAll();
   // choose() or refineForLoad() of all rods; true if that changed one.
-  bool chooseAll();
-  bool refineAllForLoad();
+  bool changesAny(bool (ClampedRod::*change)());
   // One iteration of all rods. Returns the largest change, infinity if one is not admissible.
   double sweepAll();
   // All rods and the platform; columns to `goal`. Returns what the iterations left; infinity without success.
