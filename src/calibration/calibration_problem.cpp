@@ -101,11 +101,9 @@ CalibrationUnknowns CalibrationProblem::start() {
     unknowns.x[static_cast<long>(k)] = (std::clamp(p.start, p.low + inset, p.high - inset) - p.start) / p.prior_sigma;
   }
   for (auto& evaluator : evaluators_) {
-    evaluator->restart(unknowns.x.data());
-    RegistrationVector& r = unknowns.registrations.emplace_back(RegistrationVector::Zero());
-    r.segment<3>(3) = evaluator->startRegistration().X_AB.p;
-    r.segment<3>(6) = evaluator->startRegistration().X_TS.p;
-    evaluator->orientTips(evaluator->startRegistration());
+    const Registration& start = evaluator->restart(unknowns.x.data());
+    unknowns.registrations.emplace_back() << Vector3::Zero(), start.X_AB.p, start.X_TS.p, Vector3::Zero();
+    evaluator->orientTips(start);
   }
   return unknowns;
 }

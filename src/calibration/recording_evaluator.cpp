@@ -99,7 +99,7 @@ Registration RecordingEvaluator::registration(const RegistrationVector& r) const
   return result;
 }
 
-void RecordingEvaluator::restart(const double* x) {
+const Registration& RecordingEvaluator::restart(const double* x) {
   const TipPredictions* predictions = at(x, false);
   if (predictions == nullptr)
     throw ConfigurationError("calibration of " + data_.recording.name,
@@ -110,7 +110,7 @@ void RecordingEvaluator::restart(const double* x) {
     X_BT.push_back(predictions->X_BT[i]);
     X_AS.push_back(data_.recording.samples[i].tipPose());
   }
-  start_ = fitRegistration(X_BT, X_AS).registration;
+  return start_ = fitRegistration(X_BT, X_AS).registration;
 }
 
 }  // namespace live_stiffness

@@ -43,10 +43,10 @@ class RecordingEvaluator {
   void orientTips(const Registration& registration);
 
   Registration registration(const RegistrationVector& r) const;
-  // Sets the registration that fits best at x, by fitRegistration(), as the new start of the registration's unknowns.
-  void restart(const double* x);
+  // Sets the registration that fits best at x, by fitRegistration(), as the new start of the registration's unknowns, and
+  // returns it.
+  const Registration& restart(const double* x);
 
-  const Registration& startRegistration() const { return start_; }
   const CalibrationRecording& data() const { return data_; }
   const std::string& failure() const { return failure_; }
   double correlation() const { return correlation_; }
