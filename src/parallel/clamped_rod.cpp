@@ -120,15 +120,12 @@ double ClampedRod::linearise(double goal) {
   }
   // Derivative of the end pose by the load, in units that make all entries similar: L for lengths, 1 rad of bending for moments.
   const double L = length(), moment = 1.0 / (bending_compliance_ * L), force = moment / L;
+  const Vector6 of_load = (Vector6() << Vector3::Constant(force), Vector3::Constant(moment)).finished();
+  const Vector6 of_end = (Vector6() << Vector3::Constant(1.0 / L), Vector3::Ones()).finished();
   Matrix6 end_of_load;
-  end_of_load.topLeftCorner<3, 3>() = (force / L) * p.rightCols<3>();
-  end_of_load.topRightCorner<3, 3>() = (moment / L) * p.leftCols<3>();
-  end_of_load.bottomLeftCorner<3, 3>() = force * phi.rightCols<3>();
-  end_of_load.bottomRightCorner<3, 3>() = moment * phi.leftCols<3>();
-  Matrix6 load_of_end = end_of_load.inverse();
-  load_of_end.topRows<3>() *= force;
-  load_of_end.bottomRows<3>() *= moment;
-  load_of_end.leftCols<3>() *= 1.0 / L;
+  end_of_load << p.rightCols<3>(), p.leftCols<3>(), phi.rightCols<3>(), phi.leftCols<3>();
+  const Matrix6 scaled = of_end.asDiagonal() * end_of_load * of_load.asDiagonal(), inverse = scaled.inverse();
+  const Matrix6 load_of_end = of_load.asDiagonal() * inverse * of_end.asDiagonal();
   Matrix6 stiffness;
   stiffness.topRows<3>() = load_of_end.topRows<3>();
   stiffness.bottomRows<3>().noalias() =
