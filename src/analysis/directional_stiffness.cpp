@@ -8,9 +8,7 @@ namespace {
 // [along; about]: the wrench of a unit force along the line. With its halves exchanged: the twist of a unit rotation about it.
 Vector6 lineCoordinates(const Line& line) {
   const Vector3 direction = line.direction.normalized();
-  Vector6 coordinates;
-  coordinates << direction, line.point.cross(direction);
-  return coordinates;
+  return (Vector6() << direction, line.point.cross(direction)).finished();
 }
 
 }  // namespace
@@ -32,8 +30,7 @@ double freeStiffnessAbout(const Matrix6& C, const Line& line) {
 
 double constrainedStiffnessAbout(const Matrix6& K, const Line& line) {
   const Vector6 coordinates = lineCoordinates(line);
-  Twist t;
-  t << coordinates.tail<3>(), coordinates.head<3>();
+  const Twist t = (Twist() << angular(coordinates), linear(coordinates)).finished();
   return t.dot(K * t);
 }
 

@@ -31,14 +31,6 @@ HoldGoal before(const HoldGoal& goal, const Twist& rest) {
   return earlier;
 }
 
-// Wrench that causes this motion, to first order.
-Wrench wrenchFor(const Twist& motion, const Matrix6& C, bool pure_force) {
-  Wrench wrench = Wrench::Zero();
-  if (pure_force) linear(wrench) = C.topLeftCorner<3, 3>().partialPivLu().solve(linear(motion));
-  else wrench = solve(C, motion);
-  return wrench;
-}
-
 }  // namespace
 
 HoldingWrench findHoldingWrench(const StiffnessModel& model, PressuresRef pressures, const Wrench& wrench,
@@ -60,7 +52,9 @@ HoldingWrench findHoldingWrench(const StiffnessModel& model, PressuresRef pressu
     Twist left = wayTo(leg_goal, trial.X_BT);
     for (int i = 0; i < kMostIterations && !(sizeOf(left, length) <= tolerance); ++i) {
       const double size = sizeOf(left, length);
-      trial_wrench += wrenchFor(left, trial.compliance, !goal.orientation);
+      // The wrench that causes this motion, to first order.
+      if (goal.orientation) trial_wrench += live_stiffness::solve(trial.compliance, left);
+      else linear(trial_wrench) += trial.compliance.topLeftCorner<3, 3>().partialPivLu().solve(linear(left));
       trial = solve(trial_wrench);
       left = wayTo(leg_goal, trial.X_BT);
       if (!trial.status.ok() || !(sizeOf(left, length) < 0.5 * size)) return false;

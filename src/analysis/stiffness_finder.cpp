@@ -25,33 +25,27 @@ struct Derivatives {
 };
 
 // The robot as a function of the unknowns.
-class Problem {
- public:
-  Problem(const StiffnessModel& model, const ChannelMap& channels, const Vector3& point, const Vector3& direction,
-          const FinderOptions& options)
-      : model_(model),
-        channels_(channels),
-        point_(point),
-        direction_(direction.normalized()),
-        options_(options),
-        workspace_(model.makeWorkspace()),
-        chambers_(channels.chamberCount()) {}
-
-  int size() const { return channels_.channelCount(); }
-  long solves() const { return solves_; }
-  const Vector3& point() const { return point_; }
+struct Problem {
+  const StiffnessModel& model;
+  const ChannelMap& channels;
+  const Vector3& point;
+  Line along;  // through the tip
+  const FinderOptions& options;
+  StiffnessWorkspace workspace = model.makeWorkspace();
+  Pressures chambers = Pressures::Zero(channels.chamberCount());
+  long solves = 0;
 
   std::optional<FoundPressures> solve(const Unknowns& x) {
     FoundPressures found;
-    found.channels = options_.max_pressure * x;
-    channels_.expandInto(found.channels, chambers_);
-    workspace_.reset();
-    ++solves_;
-    const StiffnessSolution solution = model_.solve(chambers_, Wrench::Zero(), workspace_);
+    found.channels = options.max_pressure * x;
+    channels.expandInto(found.channels, chambers);
+    workspace.reset();
+    ++solves;
+    const StiffnessSolution solution = model.solve(chambers, Wrench::Zero(), workspace);
     if (!solution.status.ok()) return std::nullopt;
     found.X_BT = solution.X_BT;
-    found.miss = (solution.X_BT.p - point_).norm();
-    found.stiffness = freeStiffnessAlong(solution.compliance, {Vector3::Zero(), direction_});
+    found.miss = (solution.X_BT.p - point).norm();
+    found.stiffness = freeStiffnessAlong(solution.compliance, along);
     if (!(found.stiffness > 0.0)) return std::nullopt;
     return found;
   }
@@ -59,27 +53,16 @@ class Problem {
   std::optional<Derivatives> derivatives(const Unknowns& x) {
     const std::optional<FoundPressures> at = solve(x);
     if (!at) return std::nullopt;
-    Derivatives d{*at, Eigen::Matrix3Xd(3, size()), Eigen::VectorXd(size())};
-    for (int k = 0; k < size(); ++k) {
-      Unknowns up = x, down = x;
-      up[k] += kStep;
-      down[k] -= kStep;
-      const std::optional<FoundPressures> above = solve(up), below = solve(down);
+    Derivatives d{*at, Eigen::Matrix3Xd(3, x.size()), Eigen::VectorXd(x.size())};
+    for (int k = 0; k < x.size(); ++k) {
+      const Unknowns step = kStep * Unknowns::Unit(x.size(), k);
+      const std::optional<FoundPressures> above = solve(x + step), below = solve(x - step);
       if (!above || !below) return std::nullopt;
       d.position.col(k) = (above->X_BT.p - below->X_BT.p) / (2.0 * kStep);
       d.log_stiffness[k] = std::log(above->stiffness / below->stiffness) / (2.0 * kStep);
     }
     return d;
   }
-
- private:
-  const StiffnessModel& model_;
-  const ChannelMap& channels_;
-  Vector3 point_, direction_;
-  const FinderOptions& options_;
-  StiffnessWorkspace workspace_;
-  Pressures chambers_;
-  long solves_ = 0;
 };
 
 // Levenberg-Marquardt on the distance to the point. An unknown at its bound stays there if the step would cross it.
@@ -87,7 +70,7 @@ std::optional<FoundPressures> approach(Problem& problem, Unknowns& x) {
   std::optional<Derivatives> d = problem.derivatives(x);
   double damping = 1e-3;
   for (int iteration = 0; d && iteration < 60 && d->at.miss > 1e-9; ++iteration) {
-    const Vector3 residual = d->at.X_BT.p - problem.point();
+    const Vector3 residual = d->at.X_BT.p - problem.point;
     Eigen::Matrix3Xd J = d->position;
     const Unknowns slope = J.transpose() * residual;
     for (int k = 0; k < x.size(); ++k)
@@ -115,85 +98,75 @@ std::optional<FoundPressures> approach(Problem& problem, Unknowns& x) {
   return d->at;
 }
 
-// One run of SLSQP. Keeps the best configuration within the tolerance that it visits.
-class Improver {
- public:
-  Improver(Problem& problem, double sign, double tolerance) : problem_(problem), sign_(sign), tolerance_(tolerance) {}
+// A run of SLSQP for the stiffest (sign 1) or softest (-1) configuration. Keeps the best one within the tolerance that it
+// visits.
+struct Improver {
+  Problem& problem;
+  double sign;
+  FoundPressures& best;
+  double tolerance = problem.options.tolerance;
+  nlopt_opt optimiser = nullptr;
+  Unknowns last_x = {};
+  std::optional<Derivatives> last = std::nullopt;
 
-  void run(const Unknowns& start, FoundPressures& best) {
-    best_ = &best;
-    const unsigned size = static_cast<unsigned>(start.size());
-    const std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> optimiser(nlopt_create(NLOPT_LD_SLSQP, size),
-                                                                      nlopt_destroy);
-    optimiser_ = optimiser.get();
-    nlopt_set_lower_bounds1(optimiser_, 0.0);
-    nlopt_set_upper_bounds1(optimiser_, 1.0);
-    nlopt_set_min_objective(optimiser_, objective, this);
+  void run(Unknowns x) {
+    const std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> owner(
+        nlopt_create(NLOPT_LD_SLSQP, static_cast<unsigned>(x.size())), nlopt_destroy);
+    optimiser = owner.get();
+    nlopt_set_lower_bounds1(optimiser, 0.0);
+    nlopt_set_upper_bounds1(optimiser, 1.0);
+    nlopt_set_min_objective(optimiser, objective, this);
     const double goals[3] = {1e-3, 1e-3, 1e-3};
-    nlopt_add_equality_mconstraint(optimiser_, 3, constraint, this, goals);
-    nlopt_set_xtol_abs1(optimiser_, 1e-7);
-    nlopt_set_maxeval(optimiser_, 150);
-    Unknowns x = start;
+    nlopt_add_equality_mconstraint(optimiser, 3, constraint, this, goals);
+    nlopt_set_xtol_abs1(optimiser, 1e-7);
+    nlopt_set_maxeval(optimiser, 150);
     double value = 0.0;
-    nlopt_optimize(optimiser_, x.data(), &value);  // its return value does not matter: the result is in `best`
-    optimiser_ = nullptr;
+    nlopt_optimize(optimiser, x.data(), &value);  // its return value does not matter: the result is in `best`
     // Its last configuration may be slightly off the point: correct that.
     x = x.cwiseMax(0.0).cwiseMin(1.0);
     if (x.allFinite())
-      if (const auto found = approach(problem_, x)) consider(*found);
+      if (const auto found = approach(problem, x)) consider(*found);
   }
 
- private:
   void consider(const FoundPressures& found) {
-    if (found.miss <= tolerance_ && sign_ * found.stiffness > sign_ * best_->stiffness) *best_ = found;
+    if (found.miss <= tolerance && sign * found.stiffness > sign * best.stiffness) best = found;
   }
 
   bool update(unsigned size, const double* x) {
     const Eigen::Map<const Unknowns> wanted(x, size);
-    if (last_ && last_x_ == wanted) return true;
-    last_x_ = wanted;
-    last_ = problem_.derivatives(last_x_);
-    if (!last_) {
-      nlopt_force_stop(optimiser_);
+    if (last && last_x == wanted) return true;
+    last_x = wanted;
+    last = problem.derivatives(last_x);
+    if (!last) {
+      nlopt_force_stop(optimiser);
       return false;
     }
     // Only configurations exactly at the point: others within the tolerance could be stiffer because they are off.
-    if (last_->at.miss <= 1e-3 * tolerance_) consider(last_->at);
+    if (last->at.miss <= 1e-3 * tolerance) consider(last->at);
     return true;
   }
 
   static double objective(unsigned size, const double* x, double* gradient, void* self) {
     Improver& me = *static_cast<Improver*>(self);
     if (!me.update(size, x)) return 0.0;
-    if (gradient) Eigen::Map<Unknowns>(gradient, size) = -me.sign_ * me.last_->log_stiffness;
-    return -me.sign_ * std::log(me.last_->at.stiffness);
+    if (gradient) Eigen::Map<Unknowns>(gradient, size) = -me.sign * me.last->log_stiffness;
+    return -me.sign * std::log(me.last->at.stiffness);
   }
 
-  // In units of the tolerance.
+  // In units of ten tolerances.
   static void constraint(unsigned, double* result, unsigned size, const double* x, double* gradient, void* self) {
+    using Gradient = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>;
     Improver& me = *static_cast<Improver*>(self);
     if (!me.update(size, x)) {
       std::fill_n(result, 3, 0.0);
       if (gradient) std::fill_n(gradient, 3 * size, 0.0);
       return;
     }
-    const double scale = 1.0 / me.scale();
+    const double scale = 0.1 / me.tolerance;
     Eigen::Map<Vector3> value(result);
-    value = scale * (me.last_->at.X_BT.p - me.problem_.point());
-    if (gradient) {
-      using RowMajor = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>;
-      Eigen::Map<RowMajor>(gradient, 3, size) = scale * me.last_->position;
-    }
+    value = scale * (me.last->at.X_BT.p - me.problem.point);
+    if (gradient) Eigen::Map<Gradient>(gradient, 3, size) = scale * me.last->position;
   }
-
-  double scale() const { return 10.0 * tolerance_; }
-
-  Problem& problem_;
-  double sign_, tolerance_;
-  nlopt_opt optimiser_ = nullptr;
-  FoundPressures* best_ = nullptr;
-  Unknowns last_x_;
-  std::optional<Derivatives> last_;
 };
 
 void check(const StiffnessModel& model, const ChannelMap& channels, const Vector3& point, const Vector3& direction,
@@ -215,12 +188,12 @@ void check(const StiffnessModel& model, const ChannelMap& channels, const Vector
 FinderResult findPressures(const StiffnessModel& model, const ChannelMap& channels, const Vector3& point,
                            const Vector3& direction, const FinderOptions& options) {
   check(model, channels, point, direction, options);
-  Problem problem(model, channels, point, direction, options);
+  Problem problem{model, channels, point, {Vector3::Zero(), direction}, options};
   FinderResult result;
   std::mt19937_64 engine(options.seed);
   std::vector<Unknowns> arrived;
   for (int i = 0; i <= options.starts; ++i) {
-    Unknowns x = Unknowns::Constant(problem.size(), 0.5);
+    Unknowns x = Unknowns::Constant(channels.channelCount(), 0.5);
     if (i > 0)
       for (int k = 0; k < x.size(); ++k) x[k] = static_cast<double>(engine() >> 11) * 0x1.0p-53;
     const std::optional<FoundPressures> found = approach(problem, x);
@@ -233,12 +206,11 @@ FinderResult findPressures(const StiffnessModel& model, const ChannelMap& channe
     if (!result.reached || found->stiffness < result.softest.stiffness) result.softest = *found;
     result.reached = true;
   }
-  Improver stiffen(problem, 1.0, options.tolerance), soften(problem, -1.0, options.tolerance);
   for (const Unknowns& x : arrived) {
-    stiffen.run(x, result.stiffest);
-    soften.run(x, result.softest);
+    Improver{problem, 1.0, result.stiffest}.run(x);
+    Improver{problem, -1.0, result.softest}.run(x);
   }
-  result.solves = problem.solves();
+  result.solves = problem.solves;
   return result;
 }
 

@@ -46,8 +46,6 @@ Matrix6 shiftStiffness(const Matrix6& K, const Vector3& offset) {
   return H_inverse.transpose() * K * H_inverse;
 }
 
-Matrix6 stiffnessInBodyAxes(const Matrix6& K, const Matrix3& R) { return complianceInBodyAxes(K, R); }
-
 double asymmetryOf(const Matrix6& matrix) {
   const double factor = angularFactor(matrix);
   const Matrix6 scaled = std::isfinite(factor) && factor > 0.0 ? withAngularScaled(matrix, factor) : matrix;

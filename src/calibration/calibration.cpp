@@ -14,21 +14,15 @@ namespace {
 
 constexpr double kCoarse = 1e-4, kFine = 1e-7;  // relative change of the cost at which a search ends
 
-struct SampleErrors {
-  Vector3 position;  // A axes, m
-  double rotation;   // rad
-};
-
-SampleErrors errorsOf(const Registration& registration, const Pose& X_BT, const RecordedSample& sample) {
-  const Pose predicted = registration.sensorPose(X_BT);
-  const Pose measured = sample.tipPose();
-  return {predicted.p - measured.p, logSo3(predicted.R * measured.R.transpose()).norm()};
+// Of the sensor, A axes: predicted minus measured, m and rad.
+Twist errorOf(const Registration& registration, const Pose& X_BT, const RecordedSample& sample) {
+  return residualTwist(registration.sensorPose(X_BT), sample.tipPose());
 }
 
 // Standard deviations for each axis, from the residuals of the used samples. 1.538 is the median length of a 3-vector whose
 // components have unit variance. At least a tenth of the tracker's noise, so that a simulation without noise is well
 // conditioned.
-CalibrationProblem::Sigmas residualSigmas(CalibrationProblem& problem, size_t recordings,
+ResidualSigmas residualSigmas(CalibrationProblem& problem, size_t recordings,
                                           const CalibrationProblem::Solution& solution,
                                           const CalibrationOptions& options) {
   std::vector<double> positions, rotations;
@@ -39,9 +33,9 @@ CalibrationProblem::Sigmas residualSigmas(CalibrationProblem& problem, size_t re
     if (predictions == nullptr) continue;
     for (size_t i = 0; i < predictions->X_BT.size(); ++i) {
       if (!evaluator.data().used[i]) continue;
-      const SampleErrors errors = errorsOf(registration, predictions->X_BT[i], evaluator.data().recording.samples[i]);
-      positions.push_back(errors.position.norm());
-      rotations.push_back(errors.rotation);
+      const Twist error = errorOf(registration, predictions->X_BT[i], evaluator.data().recording.samples[i]);
+      positions.push_back(linear(error).norm());
+      rotations.push_back(angular(error).norm());
     }
   }
   if (positions.empty()) return {options.position_sigma, options.rotation_sigma};
@@ -61,15 +55,14 @@ void describeRecording(CalibrationProblem& problem, const CalibrationProblem::So
     throw ConfigurationError("calibration of " + fit.name, {"a sample has no solution: " + evaluator.failure()});
   std::vector<double> used, quiet;
   for (size_t i = 0; i < predictions.size(); ++i) {
-    const SampleErrors errors = errorsOf(fit.registration, predictions[i], data.recording.samples[i]);
-    fit.position_error.push_back(errors.position.norm());
-    fit.rotation_error.push_back(errors.rotation);
-    fit.position_residual.push_back(fit.registration.X_AB.R.transpose() * errors.position);
-    if (data.used[i]) used.push_back(errors.position.norm());
+    const Twist error = errorOf(fit.registration, predictions[i], data.recording.samples[i]);
+    fit.position_error.push_back(linear(error).norm());
+    fit.rotation_error.push_back(angular(error).norm());
+    fit.position_residual.push_back(fit.registration.X_AB.R.transpose() * linear(error));
+    if (data.used[i]) used.push_back(fit.position_error[i]);
   }
   for (int i : quasiStaticSamples(data.recording))
-    if (isUnloaded(data.recording.samples[static_cast<size_t>(i)]))
-      quiet.push_back(fit.position_error[static_cast<size_t>(i)]);
+    if (isUnloaded(data.recording.samples[i])) quiet.push_back(fit.position_error[i]);
   fit.used = summarizeErrors(std::move(used));
   fit.quasi_static_unloaded = summarizeErrors(std::move(quiet));
   fit.left_out_error.assign(predictions.size(), std::numeric_limits<double>::quiet_NaN());
@@ -105,7 +98,7 @@ CalibrationResult calibrate(const Scene& scene, const ChannelMap& channels,
     if (options.progress) options.progress(stage, done, total);
   };
   CalibrationProblem problem(scene, channels, parameters, recordings, rows, options);
-  CalibrationProblem::Sigmas sigmas{options.position_sigma, options.rotation_sigma};
+  ResidualSigmas sigmas{options.position_sigma, options.rotation_sigma};
   progress("fitting", 0, 3);
   CalibrationProblem::Solution solution = problem.solve(problem.start(), sigmas, {}, kCoarse);
   for (int round = 1; round <= 2; ++round) {  // second round: with the sigmas and the tip orientations of the first
@@ -144,7 +137,7 @@ CalibrationResult calibrate(const Scene& scene, const ChannelMap& channels,
       for (size_t i = 0; i < predictions->X_BT.size(); ++i)
         if (problem.blockOf(n, i) == block)
           fit.left_out_error[i] =
-              errorsOf(registration, predictions->X_BT[i], recordings[n].recording.samples[i]).position.norm();
+              linear(errorOf(registration, predictions->X_BT[i], recordings[n].recording.samples[i])).norm();
     }
     std::vector<double> left_out;
     for (double error : fit.left_out_error)

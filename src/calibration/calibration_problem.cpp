@@ -52,9 +52,7 @@ std::vector<int> pressedAgainstBounds(ceres::Problem& problem, Eigen::VectorXd& 
   for (int k = 0; k < static_cast<int>(x.size()); ++k) {
     const SceneParameter& p = parameters[static_cast<size_t>(k)];
     const double value = p.start + p.prior_sigma * x[k], near = 1e-9 * (p.high - p.low);
-    if ((value < p.low + near && gradient[static_cast<size_t>(k)] > 0.0) ||
-        (value > p.high - near && gradient[static_cast<size_t>(k)] < 0.0))
-      pressed.push_back(k);
+    if ((value < p.low + near && gradient[k] > 0.0) || (value > p.high - near && gradient[k] < 0.0)) pressed.push_back(k);
   }
   return pressed;
 }
@@ -103,17 +101,15 @@ CalibrationUnknowns CalibrationProblem::start() {
     unknowns.x[static_cast<long>(k)] = (std::clamp(p.start, p.low + inset, p.high - inset) - p.start) / p.prior_sigma;
   }
   for (auto& evaluator : evaluators_) {
-    evaluator->restart(unknowns.x.data());
-    RegistrationVector& r = unknowns.registrations.emplace_back(RegistrationVector::Zero());
-    r.segment<3>(3) = evaluator->startRegistration().X_AB.p;
-    r.segment<3>(6) = evaluator->startRegistration().X_TS.p;
-    evaluator->orientTips(evaluator->startRegistration());
+    const Registration& start = evaluator->restart(unknowns.x.data());
+    unknowns.registrations.emplace_back() << Vector3::Zero(), start.X_AB.p, start.X_TS.p, Vector3::Zero();
+    evaluator->orientTips(start);
   }
   return unknowns;
 }
 
 std::vector<ceres::ResidualBlockId> CalibrationProblem::addData(ceres::Problem& problem, CalibrationUnknowns& unknowns,
-                                                                const Sigmas& sigmas, const LeftOut& left_out) {
+                                                                const ResidualSigmas& sigmas, const LeftOut& left_out) {
   const int count = static_cast<int>(parameters_.size());
   std::vector<ceres::ResidualBlockId> added;
   for (size_t n = 0; n < evaluators_.size(); ++n) {
@@ -122,7 +118,7 @@ std::vector<ceres::ResidualBlockId> CalibrationProblem::addData(ceres::Problem& 
     for (size_t i = 0; i < data.used.size(); ++i) {
       if (!data.used[i]) continue;
       if (left_out.recording == static_cast<int>(n) && blocks_[n][i] == left_out.block) continue;
-      ceres::CostFunction* cost = sampleCost(*evaluators_[n], i, parameters_, sigmas).release();
+      auto* cost = new SampleCost(*evaluators_[n], i, parameters_, sigmas);
       auto* loss = new ceres::ScaledLoss(new ceres::HuberLoss(options_.huber * std::sqrt(cost->num_residuals() / 3.0)),
                                          1.0 / evaluators_[n]->correlation(), ceres::TAKE_OWNERSHIP);
       added.push_back(count > 0 ? problem.AddResidualBlock(cost, loss, unknowns.x.data(), registration)
@@ -132,13 +128,13 @@ std::vector<ceres::ResidualBlockId> CalibrationProblem::addData(ceres::Problem& 
   for (size_t row = 0; row < rows_.size() && count > 0; ++row) {
     if (static_cast<int>(row) == left_out.row) continue;
     const auto compliance = [this, row](const Eigen::VectorXd& values, Matrix3& C) { return rowCompliance(row, values, C); };
-    auto cost = complianceCost(compliance, rows_[row].compliance, options_.compliance_sigma, parameters_);
-    added.push_back(problem.AddResidualBlock(cost.release(), nullptr, unknowns.x.data()));
+    auto* cost = new ComplianceCost(compliance, rows_[row].compliance, options_.compliance_sigma, parameters_);
+    added.push_back(problem.AddResidualBlock(cost, nullptr, unknowns.x.data()));
   }
   return added;
 }
 
-void CalibrationProblem::addPriors(ceres::Problem& problem, CalibrationUnknowns& unknowns, const Sigmas& sigmas) const {
+void CalibrationProblem::addPriors(ceres::Problem& problem, CalibrationUnknowns& unknowns, const ResidualSigmas& sigmas) const {
   // Normal distribution of three entries of a registration about zero.
   const auto add_prior = [&](RegistrationVector& r, int first, double sigma) {
     ceres::Matrix information_root = ceres::Matrix::Zero(3, kRegistrationSize);
@@ -194,7 +190,7 @@ void CalibrationProblem::search(ceres::Problem& problem, double tolerance, Solut
   if (bounded) hold(problem, x, {});
 }
 
-CalibrationProblem::Solution CalibrationProblem::solve(const CalibrationUnknowns& start, const Sigmas& sigmas,
+CalibrationProblem::Solution CalibrationProblem::solve(const CalibrationUnknowns& start, const ResidualSigmas& sigmas,
                                                        const LeftOut& left_out, double tolerance,
                                                        bool want_jacobian) {
   Solution solution;

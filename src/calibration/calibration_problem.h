@@ -17,7 +17,6 @@ class CalibrationProblem {
                      const std::vector<CalibrationRecording>& recordings, const std::vector<ComplianceRow>& rows,
                      const CalibrationOptions& options);
 
-  using Sigmas = ResidualSigmas;
   // What to leave out: a block of a recording or a row; none by default.
   struct LeftOut {
     int recording = -1, block = -1, row = -1;
@@ -31,7 +30,7 @@ class CalibrationProblem {
     Eigen::VectorXd residuals;
   };
   // tolerance: relative change of the cost at which the search ends.
-  Solution solve(const CalibrationUnknowns& start, const Sigmas& sigmas, const LeftOut& left_out, double tolerance,
+  Solution solve(const CalibrationUnknowns& start, const ResidualSigmas& sigmas, const LeftOut& left_out, double tolerance,
                  bool want_jacobian = false);
 
   CalibrationUnknowns start();
@@ -45,8 +44,8 @@ class CalibrationProblem {
  private:
   // Adds the residuals of all data but those left out, and returns their blocks; then those of the priors.
   std::vector<ceres::ResidualBlockId> addData(ceres::Problem& problem, CalibrationUnknowns& unknowns,
-                                              const Sigmas& sigmas, const LeftOut& left_out);
-  void addPriors(ceres::Problem& problem, CalibrationUnknowns& unknowns, const Sigmas& sigmas) const;
+                                              const ResidualSigmas& sigmas, const LeftOut& left_out);
+  void addPriors(ceres::Problem& problem, CalibrationUnknowns& unknowns, const ResidualSigmas& sigmas) const;
   void search(ceres::Problem& problem, double tolerance, Solution& solution) const;
 
   const Scene& scene_;

@@ -26,6 +26,11 @@ std::string percent(double share) {
   return text;
 }
 
+std::string errorsText(const ComplianceFit& fit) {
+  return "error of the norm (42) " + percent(fit.norm_error) + ", left out " + percent(fit.left_out_norm_error) +
+         "; of the matrix " + percent(fit.matrix_error) + ", left out " + percent(fit.left_out_matrix_error);
+}
+
 std::string directionText(const UndeterminedDirection& direction, const std::vector<ParameterFit>& parameters) {
   const double largest = direction.weights.cwiseAbs().maxCoeff();
   std::string text;
@@ -80,20 +85,14 @@ std::string reportText(const CalibrationResult& result) {
   if (!result.recordings.empty())
     out << "\nnoise seen (per axis): " << numberText(1e3 * result.position_sigma) << " mm, "
         << numberText(degrees(result.rotation_sigma)) << " deg\n";
-  double norms = 0.0, matrices = 0.0, left_norms = 0.0, left_matrices = 0.0;
+  ComplianceFit mean;
   for (const ComplianceFit& fit : result.rows) {
-    out << "\n" << fit.name << ": error of the norm (42) " << percent(fit.norm_error) << ", left out "
-        << percent(fit.left_out_norm_error) << "; of the matrix " << percent(fit.matrix_error) << ", left out "
-        << percent(fit.left_out_matrix_error);
-    const double share = 1.0 / static_cast<double>(result.rows.size());
-    norms += share * fit.norm_error;
-    matrices += share * fit.matrix_error;
-    left_norms += share * fit.left_out_norm_error;
-    left_matrices += share * fit.left_out_matrix_error;
+    out << "\n" << fit.name << ": " << errorsText(fit);
+    for (double ComplianceFit::*error : {&ComplianceFit::norm_error, &ComplianceFit::matrix_error,
+                                         &ComplianceFit::left_out_norm_error, &ComplianceFit::left_out_matrix_error})
+      mean.*error += fit.*error / static_cast<double>(result.rows.size());
   }
-  if (!result.rows.empty())
-    out << "\nmean: error of the norm (42) " << percent(norms) << ", left out " << percent(left_norms)
-        << "; of the matrix " << percent(matrices) << ", left out " << percent(left_matrices) << "\n";
+  if (!result.rows.empty()) out << "\nmean: " << errorsText(mean) << "\n";
   return out.str();
 }
 

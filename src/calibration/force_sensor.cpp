@@ -1,5 +1,8 @@
 #include "calibration/force_sensor.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "estimation/interpolation.h"
 
 namespace live_stiffness {
@@ -17,13 +20,6 @@ constexpr Prior kPriors[] = {
     {kForceSensorDelay, 0.05, 0.0},
 };
 
-// nullptr: no parameter of a mount.
-const Prior* priorOf(const std::string& name) {
-  for (const Prior& prior : kPriors)
-    if (name == prior.parameter.key) return &prior;
-  return nullptr;
-}
-
 }  // namespace
 
 Wrench ForceSensorMount::atTip(const Wrench& reading, const Matrix3& R_BT) const {
@@ -40,13 +36,13 @@ Matrix3 ForceSensorMount::seen(const Matrix3& R_BT) const {
 
 std::optional<SceneParameter> forceSensorParameter(const std::string& name, const ForceSensorMount& mount) {
   std::optional<SceneParameter> found;
-  const Prior* const prior = priorOf(name);
   ForceSensorMount::forEachParameter(mount, [&](const NumberParameter& number, double value) {
     if (name != number.key) return;
-    const double low = prior->reach > 0.0 ? value - prior->reach : number.range.low;
-    const double high = prior->reach > 0.0 ? value + prior->reach : number.range.high;
-    found = SceneParameter{name, ParameterKind::kForceSensor, {}, value, value, prior->sigma, low, high, number.unit,
-                           1e-3 * prior->sigma};
+    const Prior& prior = *std::find_if(std::begin(kPriors), std::end(kPriors),
+                                       [&](const Prior& entry) { return name == entry.parameter.key; });
+    const double low = prior.reach > 0.0 ? value - prior.reach : number.range.low;
+    const double high = prior.reach > 0.0 ? value + prior.reach : number.range.high;
+    found = SceneParameter{name, nullptr, {}, value, value, prior.sigma, low, high, number.unit, 1e-3 * prior.sigma};
   });
   return found;
 }
@@ -76,7 +72,7 @@ ForceReadings::ForceReadings(const Recording& recording) {
 }
 
 Wrench ForceReadings::atTip(const ForceSensorMount& mount, double time, const Matrix3& R_BT) const {
-  return mount.atTip(valueAt(readings_, placeIn(times_, time + mount.delay)), R_BT);
+  return mount.atTip(interpolated(times_, readings_, time + mount.delay), R_BT);
 }
 
 }  // namespace live_stiffness

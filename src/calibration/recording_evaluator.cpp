@@ -69,9 +69,7 @@ bool RecordingEvaluator::differentiate(const Eigen::VectorXd& values) {
     if (!predict(step.above, false, above) || !predict(step.below, false, below)) return false;
     for (size_t i = 0; i < X_BT.size(); ++i) {
       if (!data_.used[i]) continue;
-      auto twist = predictions_.derivative[i].col(static_cast<long>(k));
-      twist << above[i].p - below[i].p, logSo3(above[i].R * below[i].R.transpose());
-      twist /= step.distance;
+      predictions_.derivative[i].col(static_cast<long>(k)) = residualTwist(above[i], below[i]) / step.distance;
     }
   }
   return true;
@@ -79,11 +77,9 @@ bool RecordingEvaluator::differentiate(const Eigen::VectorXd& values) {
 
 const TipPredictions* RecordingEvaluator::at(const double* x, bool derivatives) {
   const Eigen::VectorXd values = valuesAt(parameters_, x);
-  const bool same = has_cache_ && cached_.size() == values.size() && cached_ == values;
-  if (!same || (derivatives && !cache_has_derivatives_)) {
+  if (cached_ != values || (derivatives && !cache_has_derivatives_)) {
     cache_ok_ = predict(values, false, predictions_.X_BT) && (!derivatives || differentiate(values));
     cached_ = values;
-    has_cache_ = true;
     cache_has_derivatives_ = derivatives;
   }
   return cache_ok_ ? &predictions_ : nullptr;
@@ -93,7 +89,7 @@ void RecordingEvaluator::orientTips(const Registration& registration) {
   R_BT_.clear();
   for (const RecordedSample& sample : data_.recording.samples)
     R_BT_.push_back(registration.tipPose(sample.tipPose()).R);
-  has_cache_ = false;
+  cached_.reset();
 }
 
 Registration RecordingEvaluator::registration(const RegistrationVector& r) const {
@@ -103,7 +99,7 @@ Registration RecordingEvaluator::registration(const RegistrationVector& r) const
   return result;
 }
 
-void RecordingEvaluator::restart(const double* x) {
+const Registration& RecordingEvaluator::restart(const double* x) {
   const TipPredictions* predictions = at(x, false);
   if (predictions == nullptr)
     throw ConfigurationError("calibration of " + data_.recording.name,
@@ -114,7 +110,7 @@ void RecordingEvaluator::restart(const double* x) {
     X_BT.push_back(predictions->X_BT[i]);
     X_AS.push_back(data_.recording.samples[i].tipPose());
   }
-  start_ = fitRegistration(X_BT, X_AS).registration;
+  return start_ = fitRegistration(X_BT, X_AS).registration;
 }
 
 }  // namespace live_stiffness

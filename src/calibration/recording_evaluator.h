@@ -1,6 +1,7 @@
 #pragma once
 // Predictions of the model for the samples of a recording, with their derivatives by the parameters.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,10 +43,10 @@ class RecordingEvaluator {
   void orientTips(const Registration& registration);
 
   Registration registration(const RegistrationVector& r) const;
-  // Sets the registration that fits best at x, by fitRegistration(), as the new start of the registration's unknowns.
-  void restart(const double* x);
+  // Sets the registration that fits best at x, by fitRegistration(), as the new start of the registration's unknowns, and
+  // returns it.
+  const Registration& restart(const double* x);
 
-  const Registration& startRegistration() const { return start_; }
   const CalibrationRecording& data() const { return data_; }
   const std::string& failure() const { return failure_; }
   double correlation() const { return correlation_; }
@@ -63,8 +64,8 @@ class RecordingEvaluator {
   ForceReadings readings_;
   std::vector<Matrix3> R_BT_;  // of each sample, as seen by the tracker
   TipPredictions predictions_;
-  Eigen::VectorXd cached_;
-  bool has_cache_ = false, cache_has_derivatives_ = false, cache_ok_ = false;
+  std::optional<Eigen::VectorXd> cached_;  // values of the predictions
+  bool cache_has_derivatives_ = false, cache_ok_ = false;
   Registration start_;
   double correlation_ = 1.0;
   std::string failure_;

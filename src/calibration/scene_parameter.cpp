@@ -9,32 +9,41 @@
 namespace live_stiffness {
 namespace {
 
+constexpr char kYoungsModulus[] = "youngs_modulus_pa", kPitchRadius[] = "chamber_pitch_radius_m",
+               kChamberRadius[] = "chamber_radius_m", kGentLimit[] = "gent_limit", kYeohC2[] = "yeoh_c2",
+               kYeohC3[] = "yeoh_c3", kLinkMass[] = "link_mass_kg";
+
 // Prior sigma of a parameter before any measurement: the larger of a share of the scene's value and a minimum. Lengths have
 // 5 %: the elastic length, and the place where the pressure acts in a chamber, are not what a ruler measures. The moduli of
 // silicones differ by half between batches and test methods.
 struct Known {
   const char* name;
-  ParameterKind kind;
-  double share, least, low, high, unit;
+  NumberOfParameter in;
+  double share, least, low, high;
 };
+Link* lastLink(Scene& scene) {
+  for (auto body = scene.chain.rbegin(); body != scene.chain.rend(); ++body)
+    if (auto* link = std::get_if<Link>(&*body)) return link;
+  return nullptr;
+}
 constexpr Known kKnown[] = {
-    {"youngs_modulus_pa", ParameterKind::kYoungsModulus, 0.5, 0.0, 1e3, 1e9, 1.0},
-    {"shear_modulus_pa", ParameterKind::kShearModulus, 0.5, 0.0, 1e2, 1e9, 1.0},
-    {"shear_correction", ParameterKind::kShearCorrection, 0.2, 0.0, 0.1, 10.0, 1.0},
-    {"length_m", ParameterKind::kLength, 0.05, 0.0, 1e-3, 10.0, 1.0},
-    {"chamber_pitch_radius_m", ParameterKind::kPitchRadius, 0.05, 0.0, 1e-5, 1.0, 1.0},
-    {"chamber_radius_m", ParameterKind::kChamberRadius, 0.05, 0.0, 1e-5, 1.0, 1.0},
-    {"chamber_area_growth_per_pa", ParameterKind::kAreaGrowth, 0.0, 2e-6, kAreaGrowthRange.low, kAreaGrowthRange.high,
-     1.0},
-    {"gent_limit", ParameterKind::kGentLimit, 1.0, 0.0, 0.1, 1e4, 1.0},
-    {"yeoh_c2", ParameterKind::kYeohC2, 0.0, 0.5, -2.0, 10.0, 1.0},
-    {"yeoh_c3", ParameterKind::kYeohC3, 0.0, 0.5, -2.0, 10.0, 1.0},
-    {"pressure_stiffening", ParameterKind::kPressureStiffening, 0.0, 1.0, kPressureStiffeningRange.low,
-     kPressureStiffeningRange.high, 1.0},
-    {"creep_share", ParameterKind::kCreepShare, 0.0, 0.1, 0.0, 0.5, 1.0},
-    {"creep_time_s", ParameterKind::kCreepTime, 1.0, 1.0, 0.2, 60.0, 1.0},
-    {"tip_mass_kg", ParameterKind::kTipMass, 0.2, 1e-3, 0.0, 10.0, 1.0},
-    {"link_mass_kg", ParameterKind::kLinkMass, 0.2, 1e-3, 0.0, 10.0, 1.0},
+    {kYoungsModulus, [](Scene&, Segment& s) { return &s.section.youngs_modulus; }, 0.5, 0.0, 1e3, 1e9},
+    {"shear_modulus_pa", [](Scene&, Segment& s) { return &s.section.shear_modulus; }, 0.5, 0.0, 1e2, 1e9},
+    {"shear_correction", [](Scene&, Segment& s) { return &s.section.shear_correction; }, 0.2, 0.0, 0.1, 10.0},
+    {"length_m", [](Scene&, Segment& s) { return &s.length; }, 0.05, 0.0, 1e-3, 10.0},
+    {kPitchRadius, [](Scene&, Segment& s) { return &s.section.chambers.pitch_radius; }, 0.05, 0.0, 1e-5, 1.0},
+    {kChamberRadius, [](Scene&, Segment& s) { return &s.section.chambers.radius; }, 0.05, 0.0, 1e-5, 1.0},
+    {"chamber_area_growth_per_pa", [](Scene&, Segment& s) { return &s.section.chambers.area_growth; }, 0.0, 2e-6,
+     kAreaGrowthRange.low, kAreaGrowthRange.high},
+    {kGentLimit, [](Scene&, Segment& s) { return &s.section.material.gent_limit; }, 1.0, 0.0, 0.1, 1e4},
+    {kYeohC2, [](Scene&, Segment& s) { return &s.section.material.yeoh_c2; }, 0.0, 0.5, -2.0, 10.0},
+    {kYeohC3, [](Scene&, Segment& s) { return &s.section.material.yeoh_c3; }, 0.0, 0.5, -2.0, 10.0},
+    {"pressure_stiffening", [](Scene&, Segment& s) { return &s.section.material.pressure_stiffening; }, 0.0, 1.0,
+     kPressureStiffeningRange.low, kPressureStiffeningRange.high},
+    {"creep_share", [](Scene&, Segment& s) { return &s.section.material.creep_share; }, 0.0, 0.1, 0.0, 0.5},
+    {"creep_time_s", [](Scene&, Segment& s) { return &s.section.material.creep_time; }, 1.0, 1.0, 0.2, 60.0},
+    {"tip_mass_kg", [](Scene& scene, Segment&) { return &scene.tip_mass; }, 0.2, 1e-3, 0.0, 10.0},
+    {kLinkMass, [](Scene& scene, Segment&) { return &lastLink(scene)->mass; }, 0.2, 1e-3, 0.0, 10.0},
 };
 constexpr double kAzimuthSigma = 5.0 * kDegree, kAzimuthReach = 30.0 * kDegree;
 const std::string kAzimuth = "channel_azimuth_";
@@ -55,60 +64,19 @@ std::vector<int> chambersOfChannel(const Scene& scene, const ChannelMap& channel
   return chambers;
 }
 
-bool isThere(const Known& known, const Scene& scene) {
-  const Material& material = firstSegment(scene).section.material;
-  switch (known.kind) {
-    case ParameterKind::kGentLimit: return material.law == StretchLaw::kGent;
-    case ParameterKind::kYeohC2:
-    case ParameterKind::kYeohC3: return material.law == StretchLaw::kYeoh;
-    case ParameterKind::kLinkMass:
-      return std::any_of(scene.chain.begin(), scene.chain.end(),
-                         [](const Body& body) { return std::holds_alternative<Link>(body); });
-    default: return true;
-  }
+bool isThere(const std::string& name, Scene scene) {
+  const StretchLaw law = firstSegment(scene).section.material.law;
+  if (name == kGentLimit) return law == StretchLaw::kGent;
+  if (name == kYeohC2 || name == kYeohC3) return law == StretchLaw::kYeoh;
+  return name != kLinkMass || lastLink(scene) != nullptr;
 }
 
-// The number of a segment that a parameter names, or nullptr.
-double* numberOf(Segment& segment, ParameterKind kind) {
-  CrossSection& section = segment.section;
-  switch (kind) {
-    case ParameterKind::kYoungsModulus: return &section.youngs_modulus;
-    case ParameterKind::kShearModulus: return &section.shear_modulus;
-    case ParameterKind::kShearCorrection: return &section.shear_correction;
-    case ParameterKind::kLength: return &segment.length;
-    case ParameterKind::kPitchRadius: return &section.chambers.pitch_radius;
-    case ParameterKind::kChamberRadius: return &section.chambers.radius;
-    case ParameterKind::kAreaGrowth: return &section.chambers.area_growth;
-    case ParameterKind::kGentLimit: return &section.material.gent_limit;
-    case ParameterKind::kYeohC2: return &section.material.yeoh_c2;
-    case ParameterKind::kYeohC3: return &section.material.yeoh_c3;
-    case ParameterKind::kPressureStiffening: return &section.material.pressure_stiffening;
-    case ParameterKind::kCreepShare: return &section.material.creep_share;
-    case ParameterKind::kCreepTime: return &section.material.creep_time;
-    default: return nullptr;
-  }
-}
-
-Link* lastLink(Scene& scene) {
-  for (auto body = scene.chain.rbegin(); body != scene.chain.rend(); ++body)
-    if (auto* link = std::get_if<Link>(&*body)) return link;
-  return nullptr;
-}
-
-double valueIn(Scene scene, ParameterKind kind) {
-  if (kind == ParameterKind::kTipMass) return scene.tip_mass;
-  if (kind == ParameterKind::kLinkMass) return lastLink(scene)->mass;
-  Segment segment = firstSegment(scene);
-  return *numberOf(segment, kind);
-}
-
-void setIn(Segment& segment, const SceneParameter& parameter, double value) {
-  if (parameter.kind == ParameterKind::kChannelAzimuth)
-    for (int chamber : parameter.chambers) segment.section.chambers.azimuths[chamber] += value - parameter.start;
-  double* const number = numberOf(segment, parameter.kind);
-  if (number == nullptr) return;
-  if (parameter.kind == ParameterKind::kYoungsModulus) segment.section.shear_modulus *= value / *number;
-  *number = value;
+void setIn(Scene& scene, Segment& segment, const SceneParameter& parameter, double value) {
+  for (int chamber : parameter.chambers) segment.section.chambers.azimuths[chamber] += value - parameter.start;
+  if (parameter.in == nullptr) return;
+  double& number = *parameter.in(scene, segment);
+  if (parameter.name == kYoungsModulus) segment.section.shear_modulus *= value / number;
+  number = value;
 }
 
 }  // namespace
@@ -116,7 +84,7 @@ void setIn(Segment& segment, const SceneParameter& parameter, double value) {
 std::vector<std::string> sceneParameterNames(const Scene& scene, const ChannelMap& channels) {
   std::vector<std::string> names;
   for (const Known& known : kKnown)
-    if (isThere(known, scene)) names.push_back(known.name);
+    if (isThere(known.name, scene)) names.push_back(known.name);
   for (int channel = 0; channel < channels.channelCount(); ++channel)
     if (!chambersOfChannel(scene, channels, channel).empty())
       names.push_back(kAzimuth + std::to_string(channel + 1) + "_deg");
@@ -133,7 +101,6 @@ SceneParameter sceneParameter(const std::string& name, const Scene& scene, const
   SceneParameter parameter;
   parameter.name = name;
   if (name.compare(0, kAzimuth.size(), kAzimuth) == 0) {
-    parameter.kind = ParameterKind::kChannelAzimuth;
     parameter.chambers = chambersOfChannel(scene, channels, std::stoi(name.substr(kAzimuth.size())) - 1);
     const std::vector<double>& azimuths = firstSegment(scene).section.chambers.azimuths;
     double x = 0.0, y = 0.0;
@@ -149,23 +116,24 @@ SceneParameter sceneParameter(const std::string& name, const Scene& scene, const
   } else {
     const Known& known = *std::find_if(std::begin(kKnown), std::end(kKnown),
                                        [&](const Known& entry) { return name == entry.name; });
-    parameter.kind = known.kind;
-    parameter.start = valueIn(scene, known.kind);
+    parameter.in = known.in;
+    Scene copy = scene;
+    Segment first = firstSegment(scene);
+    parameter.start = *known.in(copy, first);
     parameter.prior_sigma = std::max(known.share * std::abs(parameter.start), known.least);
     parameter.low = known.low;
     parameter.high = known.high;
-    parameter.unit = known.unit;
     // The tube around them limits chamber radius and pitch radius. The bound is a micrometre smaller, so that a value at the
     // bound is still legal when it is read back.
     constexpr double kMargin = 1e-6;
     const CrossSection& section = firstSegment(scene).section;
     const double inner = section.lumen_radius, outer = section.outer_radius;
     const double pitch = section.chambers.pitch_radius, radius = section.chambers.radius;
-    if (known.kind == ParameterKind::kPitchRadius) {
+    if (name == kPitchRadius) {
       parameter.low = inner + radius + kMargin;
       parameter.high = outer - radius - kMargin;
     }
-    if (known.kind == ParameterKind::kChamberRadius) {
+    if (name == kChamberRadius) {
       parameter.low = 0.5 * radius;
       parameter.high = std::min(pitch - inner, outer - pitch) - kMargin;
     }
@@ -195,14 +163,9 @@ ParameterStep stepAbout(const Eigen::VectorXd& values, const std::vector<ScenePa
 
 Scene withParameters(const Scene& scene, const std::vector<SceneParameter>& parameters, const Eigen::VectorXd& values) {
   Scene result = scene;
-  for (size_t k = 0; k < parameters.size(); ++k) {
-    const double value = values[static_cast<long>(k)];
-    if (parameters[k].kind == ParameterKind::kTipMass) result.tip_mass = value;
-    else if (parameters[k].kind == ParameterKind::kLinkMass) lastLink(result)->mass = value;
-    else
-      for (Body& body : result.chain)
-        if (auto* segment = std::get_if<Segment>(&body)) setIn(*segment, parameters[k], value);
-  }
+  for (size_t k = 0; k < parameters.size(); ++k)
+    for (Body& body : result.chain)
+      if (auto* segment = std::get_if<Segment>(&body)) setIn(result, *segment, parameters[k], values[static_cast<long>(k)]);
   return result;
 }
 

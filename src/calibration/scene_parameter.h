@@ -9,17 +9,14 @@
 
 namespace live_stiffness {
 
-enum class ParameterKind {
-  kYoungsModulus, kShearModulus, kShearCorrection, kLength, kPitchRadius, kChamberRadius, kAreaGrowth, kGentLimit,
-  kYeohC2, kYeohC3, kPressureStiffening, kCreepShare, kCreepTime, kTipMass, kLinkMass, kChannelAzimuth,
-  kForceSensor,  // not of the scene, see force_sensor.h
-};
+// The number of a parameter in a scene: one of the segment, or one of the whole scene.
+using NumberOfParameter = double* (*)(Scene& scene, Segment& segment);
 
 struct SceneParameter {
   std::string name;  // its key in the scene file, such as youngs_modulus_pa; of a channel's azimuth channel_azimuth_K_deg,
                      // K from 1, of the last link's mass link_mass_kg
-  ParameterKind kind = ParameterKind::kYoungsModulus;
-  std::vector<int> chambers;  // of kChannelAzimuth: which of a segment's chambers
+  NumberOfParameter in = nullptr;  // nullptr: a channel's azimuth, or of a force sensor and not of the scene
+  std::vector<int> chambers;       // of a channel's azimuth: which of a segment's chambers
   // All in SI (azimuths in rad, see `unit`):
   double start = 0.0;        // the scene's value; where the search begins
   double prior_mean = 0.0;   // of the prior, a normal distribution, truncated at the bounds

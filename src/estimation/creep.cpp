@@ -1,6 +1,7 @@
 #include "estimation/creep.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace live_stiffness {
 namespace {
@@ -14,14 +15,17 @@ Material firstMaterial(const Scene& scene) {
 }  // namespace
 
 SceneCreep::SceneCreep(const Scene& scene)
-    : share_(firstMaterial(scene).creep_share), filter_(share_, firstMaterial(scene).creep_time) {}
+    : share_(firstMaterial(scene).creep_share), time_constant_(firstMaterial(scene).creep_time) {}
 
 const Pressures& SceneCreep::update(PressuresRef pressures, double time) {
   constexpr double kClockSet = 1.0;  // s
-  if (time < time_ - kClockSet) filter_.reset();
+  const bool set_back = time < time_ - kClockSet;
   const double elapsed = std::max(0.0, time - time_);
-  time_ = time < time_ - kClockSet ? time : std::max(time_, time);
-  return filter_.update(pressures, elapsed);
+  time_ = set_back ? time : std::max(time_, time);
+  if (set_back || late_.size() != pressures.size()) late_ = pressures;
+  else late_ += (pressures - late_) * (1.0 - std::exp(-elapsed / time_constant_));
+  effective_ = pressures * (1.0 - share_) + late_ * share_;
+  return effective_;
 }
 
 }  // namespace live_stiffness

@@ -1,5 +1,6 @@
 #include "live_stiffness/estimation/error_summary.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -18,23 +19,17 @@ ErrorSummary summarizeErrors(std::vector<double> errors) {
   ErrorSummary summary;
   summary.count = static_cast<int>(errors.size());
   if (errors.empty()) return summary;
+  const Eigen::Map<const Eigen::VectorXd> all(errors.data(), summary.count);
   // Sorting needs an order, which NaN does not have; and a NaN must show in the result.
-  if (std::any_of(errors.begin(), errors.end(), [](double error) { return std::isnan(error); })) {
+  if (all.hasNaN()) {
     summary.mean = summary.rms = summary.p95 = summary.max = std::numeric_limits<double>::quiet_NaN();
     return summary;
   }
+  summary.mean = all.mean();
+  summary.rms = std::sqrt(all.squaredNorm() / summary.count);
   std::sort(errors.begin(), errors.end());
-  double sum = 0.0;
-  double sum_of_squares = 0.0;
-  for (double error : errors) {
-    sum += error;
-    sum_of_squares += error * error;
-  }
-  const double count = static_cast<double>(errors.size());
-  summary.mean = sum / count;
-  summary.rms = std::sqrt(sum_of_squares / count);
   // Minus a little, because 0.95 * 20 is slightly more than 19 in binary.
-  summary.p95 = errors[static_cast<size_t>(std::ceil(0.95 * count - 1e-9)) - 1];
+  summary.p95 = errors[static_cast<size_t>(std::ceil(0.95 * summary.count - 1e-9)) - 1];
   summary.max = errors.back();
   return summary;
 }

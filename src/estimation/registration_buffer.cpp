@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <numeric>
 
 #include "live_stiffness/checks.h"
 
 namespace live_stiffness {
 namespace {
-
-constexpr double kClockSet = 1.0;  // s
 
 // Appends to a track in order of time and drops what is too old.
 template <class Entry>
@@ -20,11 +19,6 @@ void append(std::deque<Entry>& track, Entry entry, double capacity) {
 template <class Entry>
 bool isDue(const std::deque<Entry>& track, double time, double spacing) {
   return track.empty() || (time > track.back().time && time >= track.back().time + spacing);
-}
-
-template <class Entry>
-bool isSetBack(const std::deque<Entry>& track, double time) {
-  return !track.empty() && time < track.back().time - kClockSet;
 }
 
 LiveRegistration refused(LiveRegistration result, const std::string& fault) {
@@ -51,25 +45,24 @@ RegistrationFit fitWithoutOutliers(std::vector<Pose>& X_BT, std::vector<Pose>& X
 }  // namespace
 
 RegistrationBuffer::RegistrationBuffer(const StiffnessModel& model, double capacity, double largest_gap)
-    : model_(model),
-      capacity_(capacity),
-      spacing_(capacity / kMost),
-      largest_gap_(largest_gap),
-      creep_(model.scene()) {}
+    : model_(model), capacity_(capacity), spacing_(capacity / kMost), largest_gap_(largest_gap), creep_(model.scene()) {}
 
-void RegistrationBuffer::forgetAll() {
+template <class Entry>
+void RegistrationBuffer::forgetIfSetBack(const std::deque<Entry>& track, double time) {
+  constexpr double kClockSet = 1.0;  // s
+  if (track.empty() || time >= track.back().time - kClockSet) return;
   actuations_.clear();
   sightings_.clear();
 }
 
 void RegistrationBuffer::addPressures(PressuresRef pressures, double time) {
-  if (isSetBack(actuations_, time)) forgetAll();
+  forgetIfSetBack(actuations_, time);
   if (pressures.size() != model_.scene().chamberCount() || !isDue(actuations_, time, spacing_)) return;
   append(actuations_, {time, pressures, creep_.update(pressures, time)}, capacity_);
 }
 
 void RegistrationBuffer::addPose(const Pose& X_AS, const Wrench& tip_wrench, bool in_contact, double time) {
-  if (isSetBack(sightings_, time)) forgetAll();
+  forgetIfSetBack(sightings_, time);
   const bool repeated = !sightings_.empty() && X_AS.p == sightings_.back().X_AS.p && X_AS.R == sightings_.back().X_AS.R;
   if (repeated || !isDue(sightings_, time, spacing_)) return;
   append(sightings_, {time, X_AS, tip_wrench, in_contact}, capacity_);
@@ -107,7 +100,7 @@ LiveRegistration RegistrationBuffer::fit(const RegistrationWindow& window) const
                                " s of its time stamp: do tracker and pressures share a clock?");
   // Quasi-static by all that is known, so that what moved just before the window counts.
   std::vector<int> chosen(pairs.size());
-  for (size_t i = 0; i < chosen.size(); ++i) chosen[i] = static_cast<int>(i);
+  std::iota(chosen.begin(), chosen.end(), 0);
   const auto leave_out = [&](auto condition) {
     chosen.erase(std::remove_if(chosen.begin(), chosen.end(), condition), chosen.end());
     return static_cast<int>(chosen.size());

@@ -69,7 +69,9 @@ class RegistrationBuffer {
     Pressures effective;
   };
 
-  void forgetAll();
+  // Forgets all if `time` is more than a second before the last entry of the track.
+  template <class Entry>
+  void forgetIfSetBack(const std::deque<Entry>& track, double time);
   // What the buffer holds, as a recording of measured pressures, and the pair of each of its samples.
   Recording paired(std::vector<Pair>& pairs) const;
 

@@ -64,9 +64,10 @@ class CentredProblem {
     return sum / count();
   }
 
-  // Normal matrix and gradient with respect to [lever * turn of R_AB (base side), offset], per sample.
-  void linearize(const Matrix3& R_AB, const Vector3& offset, Matrix6& normal, Vector6& gradient) const {
-    normal.setZero();
+  // Eigenvalues and vectors of the normal matrix, and gradient, with respect to [lever * turn of R_AB (base side), offset], per
+  // sample.
+  SymmetricEigen linearize(const Matrix3& R_AB, const Vector3& offset, Vector6& gradient) const {
+    Matrix6 normal = Matrix6::Zero();
     gradient.setZero();
     for (size_t i = 0; i < X_BT_.size(); ++i) {
       const Vector3 at = R_AB * arm(i, offset);
@@ -76,6 +77,7 @@ class CentredProblem {
       normal += J.transpose() * J / count();
       gradient += J.transpose() * (at - (X_AS_[i].p - y_mean_)) / count();
     }
+    return eigenOfSymmetric(normal);
   }
 
   Vector3 basePosition(const Matrix3& R_AB, const Vector3& offset) const {
@@ -97,32 +99,26 @@ class CentredProblem {
 };
 
 struct Fit {
-  Matrix3 R_AB = Matrix3::Identity();
-  Vector3 offset = Vector3::Zero();
+  Matrix3 R_AB;
+  Vector3 offset;
   double cost = 0.0;
 };
 
 // Gauss-Newton along the directions that the data determine, with step halving.
 Fit descend(const CentredProblem& problem, const Matrix3& start) {
   constexpr int kMaxIterations = 100;
-  Fit best{start, Vector3::Zero(), 0.0};
-  best.cost = problem.cost(best.R_AB, best.offset);
+  Fit best{start, Vector3::Zero(), problem.cost(start, Vector3::Zero())};
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    Matrix6 normal;
     Vector6 gradient;
-    problem.linearize(best.R_AB, best.offset, normal, gradient);
-    const SymmetricEigen eigen = eigenOfSymmetric(normal);
+    const SymmetricEigen eigen = problem.linearize(best.R_AB, best.offset, gradient);
     Vector6 step = Vector6::Zero();
     for (int k = 0; k < 6; ++k) {
-      const double value = eigen.values[k];
-      if (value < kWeakSensitivity * kWeakSensitivity) continue;
-      step -= eigen.vectors.col(k) * (eigen.vectors.col(k).dot(gradient) / value);
+      if (eigen.values[k] < kWeakSensitivity * kWeakSensitivity) continue;
+      step -= eigen.vectors.col(k) * (eigen.vectors.col(k).dot(gradient) / eigen.values[k]);
     }
     bool better = false;
     for (double factor = 1.0; factor > 1e-3 && !better; factor *= 0.5) {
-      Fit next;
-      next.R_AB = expSo3(factor / problem.lever() * step.head<3>()) * best.R_AB;
-      next.offset = best.offset + factor * step.tail<3>();
+      Fit next{expSo3(factor / problem.lever() * step.head<3>()) * best.R_AB, best.offset + factor * step.tail<3>()};
       next.cost = problem.cost(next.R_AB, next.offset);
       better = next.cost < best.cost;
       if (better) best = next;
@@ -133,10 +129,8 @@ Fit descend(const CentredProblem& problem, const Matrix3& start) {
 }
 
 void markUndetermined(const CentredProblem& problem, const Fit& estimate, RegistrationFit& fit) {
-  Matrix6 normal;
   Vector6 gradient;
-  problem.linearize(estimate.R_AB, estimate.offset, normal, gradient);
-  const SymmetricEigen eigen = eigenOfSymmetric(normal);
+  const SymmetricEigen eigen = problem.linearize(estimate.R_AB, estimate.offset, gradient);
   constexpr double kTakesPart = 0.1;  // smallest component of an undetermined direction that is reported
   fit.weakest_sensitivity = std::sqrt(std::max(eigen.values[0], 0.0));
   fit.base_rotation_determined = fit.sensor_offset_determined = true;

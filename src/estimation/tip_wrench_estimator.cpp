@@ -25,7 +25,7 @@ const TipWrenchOptions& checked(const TipWrenchOptions& options) {
 
 bool isPose(const Pose& X) {
   constexpr double kOrthonormal = 1e-6;
-  return X.p.allFinite() && X.R.allFinite() && X.R.determinant() > 0.0 &&
+  return X.p.allFinite() && X.R.determinant() > 0.0 &&
          (X.R * X.R.transpose() - Matrix3::Identity()).norm() < kOrthonormal;
 }
 
@@ -47,8 +47,7 @@ TipWrenchEstimator::TipWrenchEstimator(const Scene& scene, const ModelOptions& m
                                        const TipWrenchOptions& options)
     : options_(checked(options)),
       filter_(std::make_unique<TipWrenchFilter>(scene, model_options, options_)),
-      creep_(std::make_unique<SceneCreep>(scene)),
-      contact_(options.contact_on_force) {
+      creep_(std::make_unique<SceneCreep>(scene)) {
   reset();
 }
 
@@ -57,12 +56,12 @@ TipWrenchEstimator::~TipWrenchEstimator() = default;
 const StiffnessModel& TipWrenchEstimator::model() const { return filter_->model(); }
 
 void TipWrenchEstimator::reset() {
-  started_ = has_estimate_ = false;
+  started_ = has_estimate_ = contact_ = false;
+  pending_ = 0.0;
   outliers_ = 0;
   code_ = TipWrenchCode::kOk;
   status_ = {};
   filter_->reset();
-  contact_.reset();
   creep_->reset();
 }
 
@@ -91,19 +90,12 @@ std::string TipWrenchEstimator::statusText() const {
 }
 
 // Refuses what is not usable, and starts again where time jumped back.
-bool TipWrenchEstimator::accept(PressuresRef pressures, double time) {
+bool TipWrenchEstimator::accept(PressuresRef pressures, const Pose* measured, double time) {
   status_ = {};
   code_ = TipWrenchCode::kInvalidInput;
-  if (!std::isfinite(time)) return false;
-  if (pressures.size() != model().scene().chamberCount()) {
-    status_ = {SolveCode::kInvalidInput, -1, static_cast<double>(pressures.size())};
-    return false;
-  }
-  for (int k = 0; k < pressures.size(); ++k)
-    if (!std::isfinite(pressures[k]) || pressures[k] < -kAtmospherePa) {
-      status_ = {SolveCode::kInvalidInput, k, pressures[k]};
-      return false;
-    }
+  if (!std::isfinite(time) || (measured != nullptr && !isPose(*measured))) return false;
+  status_ = model().checkInput(pressures, known_);
+  if (!status_.ok()) return false;
   code_ = TipWrenchCode::kOk;
   if (started_ && time <= time_) {
     const bool restart = time < time_ - kRestartAfter;
@@ -128,7 +120,7 @@ bool TipWrenchEstimator::isOutlier(const Pose& measured, double innovation) {
   }
   const Twist moved = residualTwist(measured, last_outlier_);
   constexpr double kLargestMove = 0.01, kLargestTurn = 0.2;  // m and rad from one sample to the next
-  const bool agrees = outliers_ > 0 && moved.head<3>().norm() < kLargestMove && moved.tail<3>().norm() < kLargestTurn;
+  const bool agrees = outliers_ > 0 && linear(moved).norm() < kLargestMove && angular(moved).norm() < kLargestTurn;
   outliers_ = agrees ? outliers_ + 1 : 1;
   last_outlier_ = measured;
   if (outliers_ < kReaccept) return true;
@@ -137,19 +129,14 @@ bool TipWrenchEstimator::isOutlier(const Pose& measured, double innovation) {
 }
 
 bool TipWrenchEstimator::step(PressuresRef pressures, const Pose* measured, double time) {
-  if (measured != nullptr && !(measured->p.allFinite() && isPose(*measured))) {
-    status_ = {};
-    code_ = TipWrenchCode::kInvalidInput;
-    return false;
-  }
-  if (!accept(pressures, time)) return false;
+  if (!accept(pressures, measured, time)) return false;
   const double elapsed = time - time_;
   const double pressure_change = (pressures - pressures_).norm();
   filter_->setInputs(creep_->update(pressures, time), known_);
   pressures_ = pressures;
   time_ = time;
 
-  const bool contact = contact_.inContact();
+  const bool contact = contact_;
   TipWrenchFilter::Belief prior = filter_->predicted(elapsed, pressure_change, contact);
   TipWrenchFilter::Correction correction;
   bool outlier = false;
@@ -194,12 +181,24 @@ bool TipWrenchEstimator::fail() {
   return false;
 }
 
+// Contact begins when the force has been above contact_on_force and well above its standard deviation for a while, and ends
+// when it has been below a share of contact_on_force, or within its deviation, for a little longer. elapsed: s.
 void TipWrenchEstimator::updateContact(double elapsed) {
+  constexpr double kOffShare = 0.6;  // of contact_on_force, so that a force at the threshold does not flicker
+  constexpr double kOnDeviations = 3.0, kOffDeviations = 1.0;  // so that an uncertain force is no contact
+  constexpr double kOnTime = 0.1, kOffTime = 0.3;              // s; longer than an outlier lasts
+  constexpr double kRounding = 1e-9;                           // of sums of sample times, s
   const Vector3 force = linear(filter_->wrench());
   const Matrix3 covariance = filter_->wrenchCovariance().topLeftCorner<3, 3>();
-  const double size = force.norm();
+  const double size = force.norm(), on = options_.contact_on_force;
   const double variance = size > 0.0 ? force.dot(covariance * force) / (size * size) : covariance(0, 0);
-  contact_.update(size, std::sqrt(std::max(variance, 0.0)), elapsed);
+  const double deviation = std::sqrt(std::max(variance, 0.0));
+  const bool asks_for_change = contact_ ? size < kOffShare * on || size < kOffDeviations * deviation
+                                        : size > on && size > kOnDeviations * deviation;
+  pending_ = asks_for_change ? pending_ + elapsed : 0.0;
+  if (!asks_for_change || pending_ < (contact_ ? kOffTime : kOnTime) - kRounding) return;
+  contact_ = !contact_;
+  pending_ = 0.0;
 }
 
 void TipWrenchEstimator::publish(const StiffnessSolution& solution, double time) {
@@ -208,8 +207,8 @@ void TipWrenchEstimator::publish(const StiffnessSolution& solution, double time)
   estimate_.covariance = filter_->wrenchCovariance();
   estimate_.stiffness_scale = filter_->stiffnessScale();
   estimate_.stiffness_scale_deviation = filter_->stiffnessScaleDeviation();
-  estimate_.contact = contact_.inContact();
-  estimate_.X_BT = filter_->withModelError(solution.X_BT);
+  estimate_.contact = contact_;
+  estimate_.X_BT = filter_->withModelError(solution.X_BT, filter_->belief().x);
   estimate_.model_error = filter_->modelError();
   estimate_.solution = solution;
   has_estimate_ = true;

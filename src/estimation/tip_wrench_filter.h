@@ -54,8 +54,8 @@ class TipWrenchFilter {
   double stiffnessScale() const;
   double stiffnessScaleDeviation() const;
   Twist modelError() const { return belief_.x.segment<6>(biasIndex()); }
-  // A tip pose with the believed model error added.
-  Pose withModelError(const Pose& X_BT) const { return withModelError(X_BT, belief_.x); }
+  // A tip pose with the model error of a state added.
+  Pose withModelError(const Pose& X_BT, const State& x) const;
 
   const SolveStatus& status() const { return status_; }  // of the newest solve
   const StiffnessModel& model() const { return scaled_->model; }
@@ -74,7 +74,6 @@ class TipWrenchFilter {
   // Of a component of the model error, 0 to 5: standard deviation, m or rad.
   double modelErrorSize(int k) const { return k < 3 ? options_.model_error_position : options_.model_error_rotation; }
   Wrench wrenchOf(const State& x) const;
-  Pose withModelError(const Pose& X_BT, const State& x) const;
   // Derivative of the tip's twist by the state, at an equilibrium.
   Design designAt(const State& x, const StiffnessSolution& solution);
   // Moves x towards x + step, halved until the model has a solution there; the share taken, or 0 if none was found.

@@ -1,6 +1,8 @@
 #include "estimation/tracker_delay.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "estimation/interpolation.h"
 #include "live_stiffness/checks.h"
@@ -46,9 +48,8 @@ Recording withTrackerDelay(const Recording& recording, double delay) {
     if (sample.tip_wrench) wrenches.push_back(*sample.tip_wrench);
   }
   for (RecordedSample& sample : result.samples) {
-    const TimePlace place = placeIn(times, sample.time - delay);
-    sample.pressures = valueAt(pressures, place);
-    if (wrenches.size() == times.size()) sample.tip_wrench = valueAt(wrenches, place);
+    sample.pressures = interpolated(times, pressures, sample.time - delay);
+    if (wrenches.size() == times.size()) sample.tip_wrench = interpolated(times, wrenches, sample.time - delay);
   }
   return result;
 }
@@ -58,36 +59,30 @@ TrackerDelay fitTrackerDelay(const Recording& recording, const std::vector<Vecto
   constexpr double kDifference = 0.01;      // s, in both directions, for the predicted speed: less than between samples
   constexpr double kLeastVariance = 9e-10;  // m^2 an axis: a simulation without noise is not better than a sample's rounding
   const std::vector<double> times = timesOf(recording);
-  const auto predictedAt = [&](double time) { return valueAt(predicted, placeIn(times, time)); };
-  // Sum over the samples that count, and their number.
-  int count = 0;
-  const auto sumOf = [&](auto term) {
+  const auto predictedAt = [&](double time) { return interpolated(times, predicted, time); };
+  std::vector<RecordedSample> free;
+  std::copy_if(recording.samples.begin(), recording.samples.end(), std::back_inserter(free), isUnloaded);
+  const auto meanOf = [&](auto term) {
     double sum = 0.0;
-    count = 0;
-    for (const RecordedSample& sample : recording.samples) {
-      if (!isUnloaded(sample)) continue;
-      sum += term(sample);
-      ++count;
-    }
-    return sum;
+    for (const RecordedSample& sample : free) sum += term(sample);
+    return sum / static_cast<double>(free.size());
   };
   const auto meanSquare = [&](double delay) {
-    const double sum = sumOf([&](const RecordedSample& sample) {
+    return meanOf([&](const RecordedSample& sample) {
       return (predictedAt(sample.time - delay) - sample.tip_position).squaredNorm();
     });
-    return sum / count;
   };
   TrackerDelay result;
   result.rms_before = result.rms = std::sqrt(meanSquare(0.0));
   const double delay = bestDelay(meanSquare), mean_square = meanSquare(delay);
-  const double squared_speeds = sumOf([&](const RecordedSample& sample) {
+  const double squared_speed = meanOf([&](const RecordedSample& sample) {
     const double at = sample.time - delay;
     return ((predictedAt(at + kDifference) - predictedAt(at - kDifference)) / (2.0 * kDifference)).squaredNorm();
   });
   const double sample_time = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
   const double sharing = std::max(1.0, kCorrelation / sample_time);  // samples that share their error
   const double variance = std::max(mean_square / 3.0, kLeastVariance);
-  result.standard_error = squared_speeds > 0.0 ? std::sqrt(variance * sharing / squared_speeds) : kInfinity;
+  result.standard_error = std::sqrt(variance * sharing / (squared_speed * static_cast<double>(free.size())));
   result.determined =
       result.standard_error < TrackerDelay::kLargestError && std::abs(delay) < TrackerDelay::kLargest - 1e-9;
   if (!result.determined) return result;

@@ -23,15 +23,6 @@ Scene sceneOf(const ParallelRod& rod) {
   return scene;
 }
 
-// [f; m] or [v; w], both parts turned.
-Matrix6 turned(const Matrix6& M, const Matrix3& R) {
-  Matrix6 result;
-  for (int i = 0; i < 6; i += 3)
-    for (int j = 0; j < 6; j += 3)
-      result.block<3, 3>(i, j).noalias() = R * M.block<3, 3>(i, j) * R.transpose();
-  return result;
-}
-
 using Columns = Eigen::Map<const Eigen::Matrix<double, 3, kColumns>>;
 
 }  // namespace
@@ -80,7 +71,12 @@ void ClampedRod::changeLoad(const Vector6& change) {
 
 void ClampedRod::placeStraight() {
   load_.setZero();
+  forgetShape();
+}
+
+void ClampedRod::forgetShape() {
   nodes_hold_guess_ = has_sensitivities_ = false;
+  prepare(chain_, loads(), backbone_);
 }
 
 MarchResult ClampedRod::iterateOnce() {
@@ -124,21 +120,18 @@ double ClampedRod::linearise(double goal) {
   }
   // Derivative of the end pose by the load, in units that make all entries similar: L for lengths, 1 rad of bending for moments.
   const double L = length(), moment = 1.0 / (bending_compliance_ * L), force = moment / L;
+  const Vector6 of_load = (Vector6() << Vector3::Constant(force), Vector3::Constant(moment)).finished();
+  const Vector6 of_end = (Vector6() << Vector3::Constant(1.0 / L), Vector3::Ones()).finished();
   Matrix6 end_of_load;
-  end_of_load.topLeftCorner<3, 3>() = (force / L) * p.rightCols<3>();
-  end_of_load.topRightCorner<3, 3>() = (moment / L) * p.leftCols<3>();
-  end_of_load.bottomLeftCorner<3, 3>() = force * phi.rightCols<3>();
-  end_of_load.bottomRightCorner<3, 3>() = moment * phi.leftCols<3>();
-  Matrix6 load_of_end = end_of_load.inverse();
-  load_of_end.topRows<3>() *= force;
-  load_of_end.bottomRows<3>() *= moment;
-  load_of_end.leftCols<3>() *= 1.0 / L;
+  end_of_load << p.rightCols<3>(), p.leftCols<3>(), phi.rightCols<3>(), phi.leftCols<3>();
+  const Matrix6 scaled = of_end.asDiagonal() * end_of_load * of_load.asDiagonal(), inverse = scaled.inverse();
+  const Matrix6 load_of_end = of_load.asDiagonal() * inverse * of_end.asDiagonal();
   Matrix6 stiffness;
   stiffness.topRows<3>() = load_of_end.topRows<3>();
   stiffness.bottomRows<3>().noalias() =
       m.rightCols<3>() * load_of_end.topRows<3>() + m.leftCols<3>() * load_of_end.bottomRows<3>();
   const Matrix3& R = X_BD_.R;
-  stiffness_ = turned(stiffness, R);
+  stiffness_ = complianceInBodyAxes(stiffness, R.transpose());
   load_of_twist_.leftCols<3>().noalias() = load_of_end.leftCols<3>() * R.transpose();
   load_of_twist_.rightCols<3>().noalias() = load_of_end.rightCols<3>() * R.transpose();
 
@@ -149,8 +142,8 @@ double ClampedRod::linearise(double goal) {
   const Vector3 turn = R_end * (backbone_.rest[0].c.bending_torsion * (R_end.transpose() * end_moment_));
   linear(twist_of_length_) = R * (p.rightCols<3>() * weight + tangent);
   angular(twist_of_length_) = R * (phi.rightCols<3>() * weight + turn);
-  linear(wrench_of_length_).setZero();
-  angular(wrench_of_length_) = R * (m.rightCols<3>() * weight - tangent.cross(f));
+  wrench_of_length_ = -stiffness_ * twist_of_length_;
+  angular(wrench_of_length_) += R * (m.rightCols<3>() * weight - tangent.cross(f));
   return stiffness_.allFinite() ? left : kInfinity;
 }
 
@@ -165,8 +158,7 @@ bool ClampedRod::choose() {
   angular(now.tip) = Vector3::UnitX() * std::max(load_.tail<3>().norm(), end_moment_.norm());
   if (!discretisation_.choose(now, backbone_)) return false;
   discretisation_.apply(backbone_);
-  nodes_hold_guess_ = has_sensitivities_ = false;
-  prepare(chain_, loads(), backbone_);
+  forgetShape();
   return true;
 }
 
@@ -179,29 +171,22 @@ bool ClampedRod::refine(double buckling_factor) {
   if (count == Backbone::kMaxElements) return false;
   backbone_.element_count[0] = std::min(Backbone::kMaxElements, wanted);
   backbone_.resize(backbone_.element_count, stages);
-  nodes_hold_guess_ = has_sensitivities_ = false;
-  prepare(chain_, loads(), backbone_);
+  forgetShape();
   return true;
 }
 
 Wrench ClampedRod::endWrench() const {
-  Wrench wrench;
-  linear(wrench) = X_BD_.R * load_.head<3>();
-  angular(wrench) = X_BD_.R * end_moment_;
-  return wrench;
+  return (Wrench() << X_BD_.R * load_.head<3>(), X_BD_.R * end_moment_).finished();
 }
 
 Wrench ClampedRod::baseWrench() const {
-  Wrench wrench;
-  linear(wrench) = X_BD_.R * loads().baseForce(chain_);
-  angular(wrench) = X_BD_.R * load_.tail<3>();
-  return wrench;
+  return (Wrench() << X_BD_.R * loads().baseForce(chain_), X_BD_.R * load_.tail<3>()).finished();
 }
 
 Matrix6 ClampedRod::materialCompliance(double accuracy) {
   Matrix6 compliance;
   accumulateMaterial(chain_, accuracy, backbone_, compliance);
-  return turned(compliance, X_BD_.R);
+  return complianceInBodyAxes(compliance, X_BD_.R.transpose());
 }
 
 double ClampedRod::bendingOf(const Vector6& load) const {

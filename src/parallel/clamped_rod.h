@@ -48,7 +48,7 @@ class ClampedRod {
   const Matrix6& loadOfTwist() const { return load_of_twist_; }  // change of load that moves the end by a twist
   const Matrix6& stiffness() const { return stiffness_; }        // end wrench for a twist of the end
   const Twist& twistOfLength() const { return twist_of_length_; }     // of the end by a unit of length, load fixed
-  const Wrench& wrenchOfLength() const { return wrench_of_length_; }  // the same of the end wrench
+  const Wrench& wrenchOfLength() const { return wrench_of_length_; }  // of the end by a unit of length, end held
   double truncation() const { return truncation_; }                   // estimated relative error of discretisation
 
   // Material compliance of the rod about its end (10), base axes. Prepares the elements for stations.
@@ -63,6 +63,7 @@ class ClampedRod {
   const Pose& X_BD() const { return X_BD_; }
 
  private:
+  void forgetShape();  // load and elements stay
   DeadLoads loads() const { return {gravity_, (Wrench() << load_.head<3>(), Vector3::Zero()).finished()}; }
 
   Pose X_BD_;

@@ -13,16 +13,18 @@ namespace {
 
 constexpr Range kLengths{1e-4, 1e3};  // m
 
-void complete(const ParallelReport& report, RodCoupling& coupling, double accuracy, ParallelSolution& solution) {
+ParallelSolution failed(const SolveStatus& status) {
+  ParallelSolution solution;
+  solution.status = status;
+  return solution;
+}
+
+ParallelSolution completed(const ParallelReport& report, RodCoupling& coupling, double accuracy) {
+  ParallelSolution solution;
   solution.iterations = report.iterations;
-  if (!report.converged) {
-    solution.status = {SolveCode::kNotConverged, -1, report.step};
-    return;
-  }
-  if (!report.stable) {
-    solution.status = {SolveCode::kUnstable, -1, 0.0};
-    return;
-  }
+  if (!report.converged) solution.status = {SolveCode::kNotConverged, -1, report.step};
+  else if (!report.stable) solution.status = {SolveCode::kUnstable, -1, 0.0};
+  if (!solution.status.ok()) return solution;
   solution.X_BP = coupling.X_BP;
   solution.compliance = coupling.platformCompliance();
   solution.material_compliance = coupling.materialStiffness(accuracy).inverse();
@@ -33,6 +35,7 @@ void complete(const ParallelReport& report, RodCoupling& coupling, double accura
   // A sum is finite only if all its terms are.
   if (!std::isfinite(solution.X_BP.p.sum() + solution.compliance.sum() + solution.material_compliance.sum()))
     solution.status = {SolveCode::kNotConverged, -1, 0.0};
+  return solution;
 }
 
 }  // namespace
@@ -63,37 +66,24 @@ ParallelWorkspace ParallelModel::makeWorkspace() const {
 
 ParallelSolution ParallelModel::solve(const std::vector<double>& lengths, const Wrench& wrench,
                                       ParallelWorkspace& workspace) const {
-  ParallelSolution solution;
-  if (lengths.size() != scene_.rods.size()) {
-    solution.status = {SolveCode::kInvalidInput, -1, static_cast<double>(lengths.size())};
-    return solution;
-  }
+  if (lengths.size() != scene_.rods.size())
+    return failed({SolveCode::kInvalidInput, -1, static_cast<double>(lengths.size())});
   for (size_t i = 0; i < lengths.size(); ++i)
-    if (!kLengths.contains(lengths[i])) {
-      solution.status = {SolveCode::kInvalidInput, static_cast<int>(i), lengths[i]};
-      return solution;
-    }
-  if (!wrench.allFinite()) {
-    solution.status = {SolveCode::kInvalidInput, scene_.rodCount(), std::nan("")};
-    return solution;
-  }
+    if (!kLengths.contains(lengths[i])) return failed({SolveCode::kInvalidInput, static_cast<int>(i), lengths[i]});
+  if (!wrench.allFinite()) return failed({SolveCode::kInvalidInput, scene_.rodCount(), std::nan("")});
   ParallelStatics& statics = *workspace.statics_;
-  complete(statics.solveForPose(lengths, wrench), statics.coupling(), options_.accuracy, solution);
-  return solution;
+  return completed(statics.solveForPose(lengths, wrench), statics.coupling(), options_.accuracy);
 }
 
 ParallelSolution ParallelModel::solveForLengths(const Pose& X_BP, const Wrench& wrench,
                                                 ParallelWorkspace& workspace) const {
-  ParallelSolution solution;
   const double skewness = (X_BP.R.transpose() * X_BP.R - Matrix3::Identity()).norm();
-  if (scene_.rodCount() != 6) solution.status = {SolveCode::kInvalidInput, -2, static_cast<double>(scene_.rodCount())};
-  else if (!(skewness < 1e-6) || !X_BP.p.allFinite() || !(X_BP.R.determinant() > 0.0))
-    solution.status = {SolveCode::kInvalidInput, -3, skewness};
-  else if (!wrench.allFinite()) solution.status = {SolveCode::kInvalidInput, scene_.rodCount(), std::nan("")};
-  if (!solution.status.ok()) return solution;
+  if (scene_.rodCount() != 6) return failed({SolveCode::kInvalidInput, -2, static_cast<double>(scene_.rodCount())});
+  if (!(skewness < 1e-6) || !X_BP.p.allFinite() || !(X_BP.R.determinant() > 0.0))
+    return failed({SolveCode::kInvalidInput, -3, skewness});
+  if (!wrench.allFinite()) return failed({SolveCode::kInvalidInput, scene_.rodCount(), std::nan("")});
   ParallelStatics& statics = *workspace.statics_;
-  complete(statics.solveForLengths(X_BP, wrench), statics.coupling(), options_.accuracy, solution);
-  return solution;
+  return completed(statics.solveForLengths(X_BP, wrench), statics.coupling(), options_.accuracy);
 }
 
 void ParallelModel::stations(const ParallelWorkspace& workspace, int rod, const std::vector<double>& fractions,

@@ -9,11 +9,6 @@ namespace {
 
 constexpr size_t kMaxRods = 64;
 
-// The smallest rotation that takes z to the axis; half a turn about x for -z.
-Matrix3 orientationAlong(const Vector3& axis) {
-  return Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), axis).toRotationMatrix();
-}
-
 // A place on a hole pattern: on a circle about z, at a height, with the direction of the rod there.
 Pose readPlace(YamlMap& rod, const std::string& key, const std::string& path, FaultList& faults) {
   const YAML::Node node = rod.child(key);
@@ -28,17 +23,20 @@ Pose readPlace(YamlMap& rod, const std::string& key, const std::string& path, Fa
   place.p = {radius * std::cos(azimuth), radius * std::sin(azimuth), map.number("height_m", Range::finite(), 0.0)};
   if (map.has("axis")) {
     const Vector3 axis = map.vector("axis");
-    if (axis.norm() > 0.0) place.R = orientationAlong(axis.normalized());
+    // The smallest rotation that takes z to the axis; half a turn about x for -z.
+    if (axis.norm() > 0.0) place.R = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), axis).toRotationMatrix();
     else map.fault("axis", "must be a direction from base to platform, not zero");
   }
   map.finish();
   return place;
 }
 
-CrossSection readRodSection(YamlMap& map, bool has_gravity) {
+CrossSection readRodSection(const YAML::Node& node, const std::string& path, bool has_gravity, FaultList& faults) {
+  YamlMap map(node, path, faults);
   CrossSection section;
   readTube(map, section);
   readMaterial(map, has_gravity, section);
+  map.finish();
   return section;
 }
 
@@ -55,15 +53,9 @@ std::vector<ParallelRod> readRods(const YAML::Node& node, const std::optional<Cr
     rod.X_BD = readPlace(map, "base", path, faults);
     rod.X_PE = readPlace(map, "platform", path, faults);
     const YAML::Node own = map.child("section");
-    if (own.IsDefined()) {
-      YamlMap section(own, path + ".section", faults);
-      rod.section = readRodSection(section, has_gravity);
-      section.finish();
-    } else if (shared) {
-      rod.section = *shared;
-    } else {
-      map.fault("section is missing: give it here, or once for all rods as rod_section");
-    }
+    if (own.IsDefined()) rod.section = readRodSection(own, path + ".section", has_gravity, faults);
+    else if (shared) rod.section = *shared;
+    else map.fault("section is missing: give it here, or once for all rods as rod_section");
     map.finish();
     rods.push_back(rod);
   }
@@ -81,11 +73,7 @@ ParallelScene parseParallelScene(const std::string& yaml, const std::string& nam
     const bool has_gravity = scene.gravity.has_value();
     std::optional<CrossSection> shared;
     const YAML::Node section = map.child("rod_section");
-    if (section.IsDefined()) {
-      YamlMap section_map(section, "rod_section", faults);
-      shared = readRodSection(section_map, has_gravity);
-      section_map.finish();
-    }
+    if (section.IsDefined()) shared = readRodSection(section, "rod_section", has_gravity, faults);
     const YAML::Node rods = map.child("rods");
     if (!rods.IsDefined()) map.fault("rods is missing: must be a list of rods");
     else if (!rods.IsSequence()) map.fault("rods", "must be a list of rods");

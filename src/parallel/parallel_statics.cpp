@@ -56,12 +56,9 @@ bool ParallelStatics::chordIteration(Unknown unknown, ParallelReport& report) {
     const double error = std::max(change, report.step);
     if (!(error < kLargestStep) || (growing += error > last) > 2) return false;
     const bool at_rounding = error <= kRounding && error >= 0.5 * last;
-    if (error <= goal || at_rounding) {
-      coupling_.makeStep(unknown, 1.0);  // to first order, for pose and loads
-      return true;
-    }
+    coupling_.makeStep(unknown, 1.0);  // the last one to first order, for pose and loads
+    if (error <= goal || at_rounding) return true;
     last = error;
-    coupling_.makeStep(unknown, 1.0);
   }
   return false;
 }
@@ -73,7 +70,7 @@ bool ParallelStatics::newton(Unknown unknown, double goal, ParallelReport& repor
   constexpr double kStalled = 1e-8, kLargestStep = 3.0, kLeastShare = 1e-3;
   if (!coupling_.integrateAll()) return false;
   for (int i = 0; i < kMaxSteps && report.iterations < kMaxIterations; ++i) {
-    if (coupling_.refineAllForLoad() && !coupling_.integrateAll()) return false;
+    if (coupling_.changesAny(&ClampedRod::refineForLoad) && !coupling_.integrateAll()) return false;
     if (!linearise(unknown, report)) return false;
     report.step = coupling_.findStep(unknown);
     if (report.step <= goal) return true;
@@ -145,7 +142,7 @@ bool ParallelStatics::startCold(const Goal& goal, ParallelReport& report) {
   coupling_.placeStraight(start_lengths_);
   const bool homotopy = follow([&](double share) { coupling_.homotopy = share; }, Unknown::kFreeLengths, report);
   coupling_.homotopy = 1.0;
-  if (!homotopy || (coupling_.chooseAll() && !coupling_.integrateAll())) return false;
+  if (!homotopy || (coupling_.changesAny(&ClampedRod::choose) && !coupling_.integrateAll())) return false;
   coupling_.wrench = coupling_.wrenchOfRods();
   return followInputs(goal, report);
 }
@@ -156,7 +153,7 @@ bool ParallelStatics::finish(Unknown unknown, ParallelReport& report) {
   if (!linearise(unknown, report)) return false;
   for (int i = 0;; ++i) {
     report.truncation = kMisfit * coupling_.largestTruncation();
-    bool refined = coupling_.refineAllForLoad();
+    bool refined = coupling_.changesAny(&ClampedRod::refineForLoad);
     if (i < kMaxRefinements)
       for (ClampedRod& rod : coupling_.rods()) refined = rod.refine(kMisfit) || refined;
     if (!refined) return coupling_.platformCompliance().allFinite();

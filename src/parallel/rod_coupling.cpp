@@ -31,10 +31,7 @@ RodCoupling::RodCoupling(const ParallelScene& scene, double accuracy, Simd simd)
   errors_.assign(count, Twist::Zero());
   load_step_.assign(count, Vector6::Zero());
   length_step_.assign(count, 0.0);
-  for (Snapshot& snapshot : snapshots_) {
-    snapshot.loads.assign(count, Vector6::Zero());
-    snapshot.lengths.assign(count, 0.0);
-  }
+  for (Snapshot& snapshot : snapshots_) snapshot.rods.resize(count);
 }
 
 void RodCoupling::placeStraight(const std::vector<double>& lengths) {
@@ -59,15 +56,9 @@ bool RodCoupling::integrateAll() {
   return true;
 }
 
-bool RodCoupling::chooseAll() {
+bool RodCoupling::changesAny(bool (ClampedRod::*change)()) {
   bool changed = false;
-  for (ClampedRod& rod : rods_) changed = rod.choose() || changed;
-  return changed;
-}
-
-bool RodCoupling::refineAllForLoad() {
-  bool changed = false;
-  for (ClampedRod& rod : rods_) changed = rod.refineForLoad() || changed;
+  for (ClampedRod& rod : rods_) changed = (rod.*change)() || changed;
   return changed;
 }
 
@@ -110,10 +101,7 @@ double RodCoupling::linearise(double goal) {
 
 void RodCoupling::assembleLengths() {
   Matrix6 of_lengths;
-  for (size_t i = 0; i < 6; ++i) {
-    const ClampedRod& rod = rods_[i];
-    of_lengths.col(i) = aboutP(rod.wrenchOfLength() - rod.stiffness() * rod.twistOfLength(), leverOf(i));
-  }
+  for (size_t i = 0; i < 6; ++i) of_lengths.col(i) = aboutP(rods_[i].wrenchOfLength(), leverOf(i));
   length_inverse_ = of_lengths.inverse();
 }
 
@@ -121,26 +109,22 @@ void RodCoupling::assembleLengths() {
 double RodCoupling::findPrediction(const std::vector<double>& length_changes, const Wrench& wrench_change) {
   Wrench imbalance = wrench_change;
   for (size_t i = 0; i < rods_.size(); ++i) {
-    const ClampedRod& rod = rods_[i];
-    errors_[i] = -length_changes[i] * rod.twistOfLength();
-    imbalance -= aboutP(length_changes[i] * rod.wrenchOfLength() + rod.stiffness() * errors_[i], leverOf(i));
+    errors_[i] = -length_changes[i] * rods_[i].twistOfLength();
+    imbalance -= length_changes[i] * aboutP(rods_[i].wrenchOfLength(), leverOf(i));
   }
   return solveStep(Unknown::kPose, imbalance);
 }
 
 double RodCoupling::findStep(Unknown unknown) {
-  Wrench imbalance = wrench + aboutP((Wrench() << scene_.platformWeight(), Vector3::Zero()).finished(), centre());
+  Wrench imbalance = wrench - wrenchOfRods();
   for (size_t i = 0; i < rods_.size(); ++i) {
     const ClampedRod& rod = rods_[i];
-    const Pose X_BE = rod.X_BE(), target = targetOf(i);
-    linear(errors_[i]) = target.p - X_BE.p;
-    angular(errors_[i]) = logSo3(target.R * X_BE.R.transpose());
-    const Wrench end = rod.endWrench() + rod.stiffness() * errors_[i];
-    imbalance -= aboutP(end, leverOf(i));
+    errors_[i] = residualTwist(targetOf(i), rod.X_BE());
+    const Wrench change = rod.stiffness() * errors_[i];
+    imbalance -= aboutP(change, leverOf(i));
     if (unknown == Unknown::kFreeLengths) {
-      const Vector3 along = X_BE.R.col(2);
-      const Wrench of_length = rod.wrenchOfLength() - rod.stiffness() * rod.twistOfLength();
-      length_step_[i] = -along.dot(linear(end)) / along.dot(linear(of_length));
+      const Vector3 along = rod.X_BE().R.col(2);
+      length_step_[i] = -along.dot(linear(rod.endWrench()) + linear(change)) / along.dot(linear(rod.wrenchOfLength()));
     }
   }
   return solveStep(unknown, imbalance);
@@ -193,10 +177,7 @@ Wrench RodCoupling::wrenchOfRods() const {
 
 Matrix6 RodCoupling::materialStiffness(double accuracy) {
   Matrix6 sum = Matrix6::Zero();
-  for (size_t i = 0; i < rods_.size(); ++i) {
-    const Matrix6 K = rods_[i].materialCompliance(accuracy).inverse();
-    addStiffness(i, K, sum);
-  }
+  for (size_t i = 0; i < rods_.size(); ++i) addStiffness(i, rods_[i].materialCompliance(accuracy).inverse(), sum);
   return sum;
 }
 
@@ -211,20 +192,15 @@ double RodCoupling::largestTruncation() const {
 }
 
 void RodCoupling::save(int slot) {
-  Snapshot& snapshot = snapshots_[slot];
-  snapshot.X_BP = X_BP;
-  for (size_t i = 0; i < rods_.size(); ++i) {
-    snapshot.loads[i] = rods_[i].load();
-    snapshot.lengths[i] = rods_[i].length();
-  }
+  snapshots_[slot].X_BP = X_BP;
+  for (size_t i = 0; i < rods_.size(); ++i) snapshots_[slot].rods[i] = {rods_[i].load(), rods_[i].length()};
 }
 
 void RodCoupling::restore(int slot) {
-  const Snapshot& snapshot = snapshots_[slot];
-  X_BP = snapshot.X_BP;
+  X_BP = snapshots_[slot].X_BP;
   for (size_t i = 0; i < rods_.size(); ++i) {
-    rods_[i].setLength(snapshot.lengths[i]);
-    rods_[i].setLoad(snapshot.loads[i]);
+    rods_[i].setLength(snapshots_[slot].rods[i].length);
+    rods_[i].setLoad(snapshots_[slot].rods[i].load);
   }
 }
 

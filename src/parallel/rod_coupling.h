@@ -35,8 +35,7 @@ class RodCoupling {
   // Converged shapes of all rods. False if one cannot be found.
   bool integrateAll();
   // choose() or refineForLoad() of all rods; true if that changed one.
-  bool chooseAll();
-  bool refineAllForLoad();
+  bool changesAny(bool (ClampedRod::*change)());
   // One iteration of all rods. Returns the largest change, infinity if one is not admissible.
   double sweepAll();
   // All rods and the platform; columns to `goal`. Returns what the iterations left; infinity without success.
@@ -75,9 +74,12 @@ class RodCoupling {
   void addStiffness(size_t i, const Matrix6& K, Matrix6& sum) const;
 
   struct Snapshot {
+    struct Rod {
+      Vector6 load;
+      double length;
+    };
     Pose X_BP;
-    std::vector<Vector6> loads;
-    std::vector<double> lengths;
+    std::vector<Rod> rods;
   };
 
   const ParallelScene& scene_;

@@ -25,7 +25,7 @@ void findDelay(const std::vector<double>& times, const std::vector<Vector3>& tru
   for (int step = -kSteps; step <= kSteps; ++step) {
     double product = 0.0, truths = 0.0, estimates = 0.0;
     for (size_t i = 0; i < times.size(); ++i) {
-      const Vector3 later = valueAt(estimate, placeIn(times, times[i] + step * kStep));
+      const Vector3 later = interpolated(times, estimate, times[i] + step * kStep);
       product += truth[i].dot(later);
       truths += truth[i].squaredNorm();
       estimates += later.squaredNorm();

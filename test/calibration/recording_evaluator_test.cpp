@@ -125,7 +125,7 @@ TEST(RecordingEvaluator, DerivativesHaveConvergedWithoutLoadsAndWithoutSteps) {
 TEST(RecordingEvaluator, DerivativesAtABoundAreThoseOfTheLegalSide) {
   Problem problem(paperScene(1), Stepping::kContinuous, true);
   for (SceneParameter& p : problem.parameters)
-    if (p.kind == ParameterKind::kPitchRadius) p.high = p.start;
+    if (p.name == "chamber_pitch_radius_m") p.high = p.start;
   RecordingEvaluator evaluator(problem.scene, problem.channels, problem.parameters, problem.data, problem.options);
   const Eigen::VectorXd x = Eigen::VectorXd::Zero(static_cast<long>(problem.parameters.size()));
   const TipPredictions* predictions = evaluator.at(x.data(), true);
@@ -135,9 +135,9 @@ TEST(RecordingEvaluator, DerivativesAtABoundAreThoseOfTheLegalSide) {
   int tested = 0;
   for (size_t k = 0; k < problem.parameters.size(); ++k) {
     const SceneParameter& p = problem.parameters[k];
-    if (p.kind != ParameterKind::kPitchRadius && p.kind != ParameterKind::kCreepShare) continue;
+    if (p.name != "chamber_pitch_radius_m" && p.name != "creep_share") continue;
     ++tested;
-    const double side = p.kind == ParameterKind::kPitchRadius ? -1.0 : 1.0;
+    const double side = p.name == "chamber_pitch_radius_m" ? -1.0 : 1.0;
     Eigen::VectorXd moved = x;
     moved[static_cast<long>(k)] = 0.02 * side;
     std::vector<Pose> poses;

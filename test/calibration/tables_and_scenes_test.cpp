@@ -5,7 +5,6 @@
 #include "calibration/compliance_table.h"
 #include "calibration/scene_text.h"
 #include "live_stiffness/checks.h"
-#include "estimation/creep.h"
 #include "live_stiffness/rod/scene_file.h"
 #include "support/scenes.h"
 
@@ -73,19 +72,6 @@ TEST(ComplianceTable, ListsEveryFault) {
     EXPECT_EQ(error.faults().size(), 9u);  // pressure_2 and eight entries
   }
   EXPECT_THROW(parseComplianceTable("", "t", 1), ConfigurationError);
-}
-
-TEST(CreepFilter, ApproachesTheStepExponentially) {
-  CreepFilter filter(0.2, 3.0);
-  Pressures pressures(2);
-  pressures << 0.0, 100.0;
-  EXPECT_EQ(filter.update(pressures, 0.0)[1], 100.0);  // long there: settled
-  pressures << 1000.0, 100.0;
-  EXPECT_DOUBLE_EQ(filter.update(pressures, 0.0)[0], 800.0);
-  double last = 0.0;
-  for (int k = 0; k < 6; ++k) last = filter.update(pressures, 0.5)[0];
-  EXPECT_NEAR(last, 1000.0 * (1.0 - 0.2 * std::exp(-1.0)), 1e-9);  // 3 s, in steps of any size
-  EXPECT_DOUBLE_EQ(filter.update(pressures, 1e9)[0], 1000.0);
 }
 
 }  // namespace

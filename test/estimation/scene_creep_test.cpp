@@ -35,6 +35,19 @@ TEST(SceneCreep, AStepArrivesLessItsShareAndTheRestWithItsTimeConstant) {
   EXPECT_NEAR(effective[0], 5e4 * (1.0 - 0.2 * std::exp(-2.0)), 1e-6);  // after two time constants
 }
 
+TEST(SceneCreep, ApproachesTheStepExponentiallyInStepsOfAnySize) {
+  SceneCreep creep(creepingScene());
+  Pressures pressures(2);
+  pressures << 0.0, 100.0;
+  EXPECT_EQ(creep.update(pressures, 0.0)[1], 100.0);  // long there: settled
+  pressures << 1000.0, 100.0;
+  EXPECT_DOUBLE_EQ(creep.update(pressures, 0.0)[0], 800.0);
+  double last = 0.0;
+  for (int k = 1; k <= 6; ++k) last = creep.update(pressures, 0.5 * k)[0];
+  EXPECT_NEAR(last, 1000.0 * (1.0 - 0.2 * std::exp(-1.0)), 1e-9);  // 3 s
+  EXPECT_DOUBLE_EQ(creep.update(pressures, 1e9)[0], 1000.0);
+}
+
 TEST(SceneCreep, SettlesAnewWhenTheClockIsSetBackAndNotWhenAMessageIsLate) {
   SceneCreep creep(creepingScene());
   const Pressures step = Pressures::Constant(6, 5e4);

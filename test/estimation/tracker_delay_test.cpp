@@ -89,12 +89,12 @@ TEST(WithTrackerDelay, PairsEachPoseWithThePressuresAndTheWrenchOfTheDelayBefore
   EXPECT_NEAR(withTrackerDelay(recording, -0.25).samples[2].pressures[1], 4500.0, 1e-9);
 }
 
-TEST(PlaceIn, IsBetweenTheTwoNeighboursAndAtTheEndsOutside) {
+TEST(Interpolated, IsBetweenTheTwoNeighboursAndAtTheEndsOutside) {
   const std::vector<double> times = {1.0, 2.0, 4.0}, values = {10.0, 20.0, 40.0};
   for (const auto& [time, value] : {std::pair(0.0, 10.0), std::pair(1.0, 10.0), std::pair(1.5, 15.0),
                                     std::pair(2.0, 20.0), std::pair(3.5, 35.0), std::pair(4.0, 40.0), std::pair(9.0, 40.0)})
-    EXPECT_NEAR(valueAt(values, placeIn(times, time)), value, 1e-12) << time;
-  EXPECT_EQ(valueAt(std::vector<double>{7.0}, placeIn({3.0}, 5.0)), 7.0);
+    EXPECT_NEAR(interpolated(times, values, time), value, 1e-12) << time;
+  EXPECT_EQ(interpolated({3.0}, std::vector<double>{7.0}, 5.0), 7.0);
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ TEST(ContactReplay, ForceAndTipAreThoseMeasured) {
     ASSERT_EQ(poses.count(stamp), 1u) << "stamps are those of recorded poses";
     const Pose measured = registration.tipPose(poses.at(stamp));
     const double then = stamp.toSec() - registration.tracker_delay;
-    const Vector3 force = measured.R * valueAt(sensed, placeIn(sensed_times, then));
+    const Vector3 force = measured.R * interpolated(sensed_times, sensed, then);
     samples.push_back({stamp.toSec(), force, vectorFrom(contact->wrench.force), translationalCompliance(*contact),
                        contact->contact != 0});
     corrected_errors.push_back((positionOf(contact->tip_pose) - measured.p).norm());

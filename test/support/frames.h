@@ -10,7 +10,7 @@ inline Matrix6 complianceInFrame(const Matrix6& C, const Pose& X_OF) {
   return complianceInBodyAxes(shiftCompliance(C, X_OF.p), X_OF.R);
 }
 inline Matrix6 stiffnessInFrame(const Matrix6& K, const Pose& X_OF) {
-  return stiffnessInBodyAxes(shiftStiffness(K, X_OF.p), X_OF.R);
+  return complianceInBodyAxes(shiftStiffness(K, X_OF.p), X_OF.R);
 }
 
 }  // namespace live_stiffness

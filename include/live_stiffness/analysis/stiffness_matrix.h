@@ -19,11 +19,8 @@ struct StiffnessMatrix {
 // C need not be symmetric. The error of K is about 1e-16 times `condition`, relative and scaled.
 StiffnessMatrix stiffnessOf(const Matrix6& C);
 
-// K about the point o becomes K about the point o + offset, same axes: H^-T K H^-1.
+// K about the point o becomes K about the point o + offset, same axes: H^-T K H^-1. Other axes: as complianceInBodyAxes().
 Matrix6 shiftStiffness(const Matrix6& K, const Vector3& offset);
-
-// K in base axes becomes K in axes of the body with orientation R, same point.
-Matrix6 stiffnessInBodyAxes(const Matrix6& K, const Matrix3& R);
 
 // How unsymmetric a compliance or stiffness matrix is: norm of the antisymmetric part over that of the symmetric, both
 // scaled by the matrix's own length; 0: symmetric. Not zero under a dead tip moment, which is not conservative.

@@ -93,6 +93,9 @@ class StiffnessModel {
   // Never throws and never allocates; a failure is a status.
   StiffnessSolution solve(PressuresRef pressures, const Wrench& tip_wrench, StiffnessWorkspace& workspace) const;
 
+  // What solve() would refuse of this input: kOk or kInvalidInput.
+  SolveStatus checkInput(PressuresRef pressures, const Wrench& tip_wrench) const;
+
   // Station of the last successful solve in the workspace. segment: 0 to segmentCount() - 1; fraction: 0 to 1.
   Station station(const StiffnessWorkspace& workspace, int segment, double fraction) const;
   // The same for several at once, which is faster. out: plan.size() of them. Never allocates.
@@ -102,7 +105,6 @@ class StiffnessModel {
   std::string describe(const SolveStatus& status) const;
 
  private:
-  SolveStatus checkInput(PressuresRef pressures, const Wrench& tip_wrench) const;
   SolveStatus solveInto(StiffnessSolution& solution, PressuresRef pressures, const Wrench& tip_wrench,
                         StiffnessWorkspace& workspace) const;
   SolveStatus stepLoads(PressuresRef pressures, Backbone& backbone) const;

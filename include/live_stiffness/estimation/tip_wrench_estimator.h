@@ -11,7 +11,6 @@
 #include <string>
 
 #include "live_stiffness/compliance/stiffness_model.h"
-#include "live_stiffness/estimation/contact_detector.h"
 #include "live_stiffness/parameters.h"
 
 namespace live_stiffness {
@@ -107,7 +106,7 @@ class TipWrenchEstimator {
   const StiffnessModel& model() const;                   // at the current scale
 
  private:
-  bool accept(PressuresRef pressures, double time);
+  bool accept(PressuresRef pressures, const Pose* measured, double time);
   bool step(PressuresRef pressures, const Pose* measured, double time);
   bool isOutlier(const Pose& measured, double innovation);
   bool fail();
@@ -117,7 +116,8 @@ class TipWrenchEstimator {
   const TipWrenchOptions options_;
   const std::unique_ptr<TipWrenchFilter> filter_;  // refers to the options
   const std::unique_ptr<SceneCreep> creep_;
-  ContactDetector contact_;
+  bool contact_ = false;
+  double pending_ = 0.0;             // s that the force has asked for contact to begin or to end
   Wrench known_ = Wrench::Zero();
   Pressures pressures_;              // of the last sample, as given, Pa
   double time_ = 0.0;                // of the last sample, s
