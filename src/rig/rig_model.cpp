@@ -33,7 +33,6 @@ void checkNumbers(const RigOptions& options, FaultList& faults) {
   faults.check("tracker_delay_s", options.registration.tracker_delay, {0.0, Registration::kLargestDelay});
   checkPose("base_in_tracker", options.registration.X_AB, faults);
   checkPose("sensor_on_tip", options.registration.X_TS, faults);
-  if (!options.tip_wrench.allFinite()) faults.add("tip_wrench: must be finite");
   options.contact.check(faults);
 }
 
@@ -129,7 +128,7 @@ RigSample RigModel::step(double time) {
   sample.effective_chambers = (1.0 - options_.creep_fraction) * sample.actual_chambers +
                               options_.creep_fraction * creep_.update(sample.actual_chambers, elapsed);
   sample.contact_wrench = options_.contact.at(time);
-  const std::optional<Pose> X_BT = robot_.solve(sample.effective_chambers, options_.tip_wrench + sample.contact_wrench);
+  const std::optional<Pose> X_BT = robot_.solve(sample.effective_chambers, sample.contact_wrench);
   if (!X_BT) throw std::runtime_error("the simulated robot finds no equilibrium at " + numberText(time) + " s");
   sample.X_BT = *X_BT;
   history_.add({time, sample.effective_chambers, sample.X_BT});
