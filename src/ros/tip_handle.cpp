@@ -15,14 +15,11 @@ using visualization_msgs::InteractiveMarkerFeedback;
 
 constexpr char kOtherShape[] = "no ghost: the robot is in another stable shape than the one it takes from rest";
 
-const char* titleOf(TipHandle::Question question) {
-  switch (question) {
-    case TipHandle::Question::kForceAtPosition: return "Drag the tip: force that holds it at the position";
-    case TipHandle::Question::kWrenchAtPose: return "Drag the tip: wrench that holds it at the pose";
-    case TipHandle::Question::kDeflectionUnderWrench: return "Apply a wrench: deflection";
-  }
-  return "";
-}
+constexpr char kName[] = "tip";  // of the interactive marker
+
+// Of the questions, in their order.
+constexpr const char* kTitles[] = {"Drag the tip: force that holds it at the position",
+                                   "Drag the tip: wrench that holds it at the pose", "Apply a wrench: deflection"};
 
 std::string wrenchText(const Wrench& wrench) {
   char text[120];
@@ -55,8 +52,6 @@ InteractiveMarkerControl axisControl(const Vector3& axis, uint8_t mode, const st
 
 }  // namespace
 
-constexpr char TipHandle::kName[];
-
 TipHandle::TipHandle(const ros::NodeHandle& private_node, const MarkerStyle& style,
                      const TipHandleOptions& options, const ros::Publisher& markers, GetSnapshot get_snapshot)
     : style_(style),
@@ -68,10 +63,10 @@ TipHandle::TipHandle(const ros::NodeHandle& private_node, const MarkerStyle& sty
 }
 
 void TipHandle::fillMenu() {
-  for (Question question :
-       {Question::kForceAtPosition, Question::kWrenchAtPose, Question::kDeflectionUnderWrench})
-    entries_.push_back(menu_.insert(
-        titleOf(question), [this, question](const InteractiveMarkerFeedback::ConstPtr&) { choose(question); }));
+  for (const char* title : kTitles) {
+    const auto question = static_cast<Question>(entries_.size());
+    entries_.push_back(menu_.insert(title, [this, question](const InteractiveMarkerFeedback::ConstPtr&) { choose(question); }));
+  }
   menu_.insert("Let go", [this](const InteractiveMarkerFeedback::ConstPtr&) { letGo(); });
   choose(question_);
 }
@@ -97,7 +92,7 @@ void TipHandle::insertMarker(const Pose& X_BT) {
   visualization_msgs::InteractiveMarker marker;
   marker.header.frame_id = style_.frame;  // without a stamp, so that rviz answers in this frame
   marker.name = kName;
-  marker.description = titleOf(question_);
+  marker.description = kTitles[static_cast<size_t>(question_)];
   marker.scale = static_cast<float>(0.3 * solver_.model().scene().length());
   marker.pose = toPose(X_BT);
   const Vector3 axes[] = {Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ()};

@@ -23,8 +23,6 @@ namespace live_stiffness {
 
 class TipHandle {
  public:
-  enum class Question { kForceAtPosition, kWrenchAtPose, kDeflectionUnderWrench };
-  static constexpr char kName[] = "tip";  // of the interactive marker
 
   // Serves the interactive marker on ~tip_marker, and publishes the ghost on `markers`.
   TipHandle(const ros::NodeHandle& private_node, const MarkerStyle& style,
@@ -36,6 +34,8 @@ class TipHandle {
   void update();
 
  private:
+  enum class Question { kForceAtPosition, kWrenchAtPose, kDeflectionUnderWrench };
+
   void drag(const visualization_msgs::InteractiveMarkerFeedback& feedback);
   void choose(Question question);
   void letGo();
