@@ -1,8 +1,8 @@
 #pragma once
-// Entries of diagnostics that both nodes have: clock and solver.
+// Diagnostics of both nodes: their updater and entries for clock and solver.
 
-#include <diagnostic_updater/DiagnosticStatusWrapper.h>
-#include <ros/time.h>
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
 
 #include <string>
 
@@ -33,6 +33,21 @@ class ClockStatus {
  private:
   ros::Time last_;                // at the last call
   ros::WallTime jumped_, moved_;  // when it jumped back, and when it was last seen to advance
+};
+
+// Publishes diagnostics, with an entry for the clock.
+class NodeDiagnostics : public diagnostic_updater::Updater {
+ public:
+  NodeDiagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node) : Updater(node, private_node) {
+    setHardwareID("live_stiffness");
+    add("Clock", &clock_, &ClockStatus::diagnose);
+    // Not update(), which waits for ROS time: that may stand still or jump back (findings/diagnostics_after_a_jump_of_time.sh).
+    timer_ = node.createWallTimer(ros::WallDuration(getPeriod()), [this](const ros::WallTimerEvent&) { force_update(); });
+  }
+
+ private:
+  ClockStatus clock_;
+  ros::WallTimer timer_;
 };
 
 // Status of the solver. estimator: StiffnessEstimator or ParallelEstimator. wrench_error: what is wrong with the known wrench,
