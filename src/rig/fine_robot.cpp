@@ -131,8 +131,9 @@ FineRobot::RodState FineRobot::integrateChain(const std::vector<LoadedSegment>& 
   return state;
 }
 
-// Moment left over at T: what the rod carries there less what acts there.
-Vector3 FineRobot::residual(const RodState& end, const Vector3& gravity, const Wrench& tip_wrench) const {
+Vector3 FineRobot::residual(const std::vector<LoadedSegment>& segments, const Vector3& gravity, const Wrench& tip_wrench,
+                            const Vector3& base_moment, RodState& end) const {
+  end = integrateChain(segments, gravity, tip_wrench, base_moment);
   const Vector3 arm = end.q * scene_.tip_offset;
   return end.m - angular(tip_wrench) - arm.cross(linear(tip_wrench) + scene_.tip_mass * gravity);
 }
@@ -145,37 +146,30 @@ bool FineRobot::newton(const std::vector<LoadedSegment>& segments, const Vector3
   for (const LoadedSegment& segment : segments) bend_per_moment += segment.length * segment.c.bending_torsion(0, 0);
   const double unit = 1.0 / bend_per_moment;
 
-  Vector3 m0 = base_moment;
-  end = integrateChain(segments, gravity, tip_wrench, m0);
-  Vector3 r = residual(end, gravity, tip_wrench);
+  RodState tried;
+  const auto residualAt = [&](const Vector3& m) { return residual(segments, gravity, tip_wrench, m, tried); };
+  Vector3 r = residualAt(base_moment);
+  end = tried;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    if (r.norm() < 1e-12 * unit) {  // some ten times the rounding of kRodSteps steps
-      base_moment = m0;
-      return true;
-    }
+    if (r.norm() < 1e-12 * unit) return true;  // some ten times the rounding of kRodSteps steps
     Matrix3 J;
     for (int k = 0; k < 3; ++k) {
-      const double h = 1e-6 * unit;
-      const Vector3 ahead = m0 + h * Vector3::Unit(k), behind = m0 - h * Vector3::Unit(k);
-      J.col(k) = (residual(integrateChain(segments, gravity, tip_wrench, ahead), gravity, tip_wrench) -
-                  residual(integrateChain(segments, gravity, tip_wrench, behind), gravity, tip_wrench)) / (2.0 * h);
+      const Vector3 h = 1e-6 * unit * Vector3::Unit(k);
+      J.col(k) = (residualAt(base_moment + h) - residualAt(base_moment - h)) / (2.0 * h[k]);
     }
     const Vector3 step = -J.fullPivLu().solve(r);
     bool better = false;
     for (double factor = 1.0; factor > 1e-3 && !better; factor *= 0.5) {
-      const Vector3 next = m0 + factor * step;
-      const RodState next_end = integrateChain(segments, gravity, tip_wrench, next);
-      const Vector3 next_r = residual(next_end, gravity, tip_wrench);
+      const Vector3 next = base_moment + factor * step, next_r = residualAt(next);
       better = next_r.norm() < r.norm();
       if (better) {
-        m0 = next;
-        end = next_end;
+        base_moment = next;
+        end = tried;
         r = next_r;
       }
     }
     if (!better) break;
   }
-  base_moment = m0;
   return r.norm() < 1e-10 * unit;  // rounding stopped it, and the pose is good to 1e-10 of the length
 }
 

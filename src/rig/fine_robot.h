@@ -48,7 +48,9 @@ class FineRobot {
   bool loadSegments(PressuresRef pressures, std::vector<LoadedSegment>& segments) const;
   RodState integrateChain(const std::vector<LoadedSegment>& segments, const Vector3& gravity, const Wrench& tip_wrench,
                           const Vector3& base_moment) const;
-  Vector3 residual(const RodState& end, const Vector3& gravity, const Wrench& tip_wrench) const;
+  // Moment left over at T: what the rod carries there less what acts there.
+  Vector3 residual(const std::vector<LoadedSegment>& segments, const Vector3& gravity, const Wrench& tip_wrench,
+                   const Vector3& base_moment, RodState& end) const;
   bool newton(const std::vector<LoadedSegment>& segments, const Vector3& gravity, const Wrench& tip_wrench,
               Vector3& base_moment, RodState& end) const;
 

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 #include "live_stiffness/checks.h"
@@ -13,13 +14,6 @@ namespace {
 constexpr int kErrorComponents = 3;
 constexpr double kSlowestError = 60.0;  // s, period of the slowest of them
 
-std::vector<int> channelsOrOnePerChamber(const Scene& scene, const RigOptions& options) {
-  if (!options.channel_of_chamber.empty()) return options.channel_of_chamber;
-  std::vector<int> identity(scene.chamberCount());
-  for (size_t k = 0; k < identity.size(); ++k) identity[k] = static_cast<int>(k);
-  return identity;
-}
-
 void checkPose(const std::string& name, const Pose& X, FaultList& faults) {
   constexpr double kOrthonormal = 1e-6;
   if (!X.p.allFinite()) faults.add(name + ".position_m: must be finite");
@@ -28,21 +22,21 @@ void checkPose(const std::string& name, const Pose& X, FaultList& faults) {
   if (!is_rotation) faults.add(name + ": its orientation must be a rotation");
 }
 
-void checkNumbers(const RigOptions& options, FaultList& faults) {
+// The map, after a look at everything, so that all faults come out together.
+ChannelMap checkedChannelMap(const Scene& scene, const RigOptions& options) {
+  FaultList faults("rig");
   faults.checkAll(options);
   faults.check("tracker_delay_s", options.registration.tracker_delay, {0.0, Registration::kLargestDelay});
   checkPose("base_in_tracker", options.registration.X_AB, faults);
   checkPose("sensor_on_tip", options.registration.X_TS, faults);
   options.contact.check(faults);
-}
-
-// The map, after a look at everything, so that all faults come out together.
-ChannelMap checkedChannelMap(const Scene& scene, const RigOptions& options) {
-  FaultList faults("rig");
-  checkNumbers(options, faults);
   if (scene.segmentCount() == 0) faults.add("chain: must hold at least one segment");
   if (scene.chamberCount() == 0) faults.add("chain: must hold at least one chamber");
-  const std::vector<int> channels = channelsOrOnePerChamber(scene, options);
+  std::vector<int> channels = options.channel_of_chamber;
+  if (channels.empty()) {
+    channels.resize(scene.chamberCount());
+    std::iota(channels.begin(), channels.end(), 0);
+  }
   if (static_cast<int>(channels.size()) != scene.chamberCount())
     faults.add("channel_of_chamber has " + std::to_string(channels.size()) + " entries: must be " +
                std::to_string(scene.chamberCount()) + ", one per chamber");
