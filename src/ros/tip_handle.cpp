@@ -95,12 +95,11 @@ void TipHandle::insertMarker(const Pose& X_BT) {
   marker.description = kTitles[static_cast<size_t>(question_)];
   marker.scale = static_cast<float>(0.3 * solver_.model().scene().length());
   marker.pose = toPose(X_BT);
-  const Vector3 axes[] = {Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ()};
   for (int k = 0; k < 3; ++k) {
     const std::string name(1, "xyz"[k]);
-    marker.controls.push_back(axisControl(axes[k], InteractiveMarkerControl::MOVE_AXIS, "move_" + name));
+    marker.controls.push_back(axisControl(Vector3::Unit(k), InteractiveMarkerControl::MOVE_AXIS, "move_" + name));
     if (question_ != Question::kForceAtPosition)
-      marker.controls.push_back(axisControl(axes[k], InteractiveMarkerControl::ROTATE_AXIS, "turn_" + name));
+      marker.controls.push_back(axisControl(Vector3::Unit(k), InteractiveMarkerControl::ROTATE_AXIS, "turn_" + name));
   }
   InteractiveMarkerControl ball;  // drag it in the plane of the screen; a right click opens the menu
   ball.name = "move";
@@ -152,7 +151,7 @@ void TipHandle::update() {
   if (!dragged_) return;
   const ros::WallTime start = ros::WallTime::now();
   if (!isAnswered(estimate) && start >= next_answer_) {
-    ghost_ = answer(estimate);
+    answer(estimate);
     asked_ = Asked{estimate.effective, estimate.tip_wrench, *dragged_};
     const ros::WallTime end = ros::WallTime::now();
     next_answer_ = end + (end - start) * 4.0;
@@ -160,56 +159,42 @@ void TipHandle::update() {
   markers_.publish(makeGhostMarkers(&ghost_, options_.force_per_m, style_, newest.stamp));
 }
 
-Ghost TipHandle::answer(const Estimate& estimate) {
-  Ghost ghost = question_ == Question::kDeflectionUnderWrench ? answerDeflection(estimate) : answerForce(estimate);
-  ghost.text_place = {dragged_->p.x(), dragged_->p.y(),  // above handle, tip and eigenvalues
-                      std::max(dragged_->p.z(), estimate.solution.X_BT.p.z()) + 0.036};
-  return ghost;
+void TipHandle::answer(const Estimate& estimate) {
+  ghost_ = Ghost();
+  ghost_.text = question_ == Question::kDeflectionUnderWrench ? answerDeflection(estimate) : answerForce(estimate);
+  ghost_.text_place = {dragged_->p.x(), dragged_->p.y(),  // above handle, tip and eigenvalues
+                       std::max(dragged_->p.z(), estimate.solution.X_BT.p.z()) + 0.036};
 }
 
-Ghost TipHandle::answerForce(const Estimate& estimate) {
+std::string TipHandle::answerForce(const Estimate& estimate) {
   HoldGoal goal{dragged_->p, std::nullopt};
   if (question_ == Question::kWrenchAtPose) goal.orientation = dragged_->R;
   const HoldingWrench found =
       findHoldingWrench(solver_.model(), estimate.effective, estimate.tip_wrench, goal, solver_.workspace());
-  Ghost ghost;
-  if (!found.before.status.ok()) {
-    ghost.text = "no ghost: " + solver_.model().describe(found.before.status);
-  } else if (!isSameEquilibrium(found.before.X_BT, estimate.solution.X_BT, solver_.model())) {
-    ghost.text = kOtherShape;
-  } else if (!found.reached) {
-    ghost.text = "no stable equilibrium there;\nthe tip comes to " + numberText(1e3 * found.miss.position) +
-                 " mm from it under\n" + wrenchText(found.wrench);
-  } else {
-    const Pose predicted = predictDeflection(found.before.X_BT, found.before.compliance, found.wrench).exponential;
-    ghost.X_BT = found.held.X_BT;
-    ghost.force = linear(found.wrench);
-    ghost.text = wrenchText(found.wrench) + "\n" + motionText(found.before.X_BT, ghost.X_BT, predicted);
-    addShape(ghost);
-  }
-  return ghost;
+  if (!found.before.status.ok()) return "no ghost: " + solver_.model().describe(found.before.status);
+  if (!isSameEquilibrium(found.before.X_BT, estimate.solution.X_BT, solver_.model())) return kOtherShape;
+  if (!found.reached)
+    return "no stable equilibrium there;\nthe tip comes to " + numberText(1e3 * found.miss.position) +
+           " mm from it under\n" + wrenchText(found.wrench);
+  const Pose predicted = predictDeflection(found.before.X_BT, found.before.compliance, found.wrench).exponential;
+  return show(found.wrench, found.before.X_BT, found.held.X_BT, predicted);
 }
 
-Ghost TipHandle::answerDeflection(const Estimate& estimate) {
+std::string TipHandle::answerDeflection(const Estimate& estimate) {
   const DeflectionCheck check =
       checkDeflection(solver_.model(), estimate.effective, estimate.tip_wrench, wrench_, solver_.workspace());
-  Ghost ghost;
-  if (!check.undeflected_ok || !check.status.ok()) {
-    ghost.text = wrenchText(wrench_) + "\nno ghost: " + solver_.model().describe(check.status);
-  } else if (!isSameEquilibrium(check.undeflected, estimate.solution.X_BT, solver_.model())) {
-    ghost.text = kOtherShape;
-  } else {
-    ghost.X_BT = check.exact;
-    ghost.force = linear(wrench_);
-    ghost.text = wrenchText(wrench_) + "\n" + motionText(check.undeflected, check.exact, check.predicted.exponential);
-    addShape(ghost);
-  }
-  return ghost;
+  if (!check.undeflected_ok || !check.status.ok())
+    return wrenchText(wrench_) + "\nno ghost: " + solver_.model().describe(check.status);
+  if (!isSameEquilibrium(check.undeflected, estimate.solution.X_BT, solver_.model())) return kOtherShape;
+  return show(wrench_, check.undeflected, check.exact, check.predicted.exponential);
 }
 
-void TipHandle::addShape(Ghost& ghost) const {
+std::string TipHandle::show(const Wrench& wrench, const Pose& before, const Pose& after, const Pose& predicted) {
+  ghost_.X_BT = after;
+  ghost_.force = linear(wrench);
   for (const Station& station : sampleBackbone(solver_.model(), solver_.workspace(), kShapeSections))
-    ghost.shape.push_back(station.X_BQ);
+    ghost_.shape.push_back(station.X_BQ);
+  return wrenchText(wrench) + "\n" + motionText(before, after, predicted);
 }
 
 }  // namespace live_stiffness
