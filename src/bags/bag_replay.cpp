@@ -1,6 +1,5 @@
 #include "bags/bag_replay.h"
 
-#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <optional>
@@ -9,6 +8,7 @@
 #include "estimation/motion_history.h"
 #include "bags/bag_reader.h"
 #include "bags/output_bag.h"
+#include "live_stiffness/section/channel_map.h"
 
 namespace live_stiffness {
 namespace {

@@ -9,7 +9,6 @@
 #include "live_stiffness/estimation/registration.h"
 #include "live_stiffness/estimation/stiffness_estimator.h"
 #include "bags/bag_reader.h"
-#include "live_stiffness/section/channel_map.h"
 
 namespace live_stiffness {
 

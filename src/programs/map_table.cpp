@@ -19,9 +19,9 @@ void append(std::string& text, double value) {
 void appendValues(const SweepRow& row, std::string& text) {
   const Eigen::Quaterniond q(row.X_BT.R);
   const auto add = [&](double value) { text += ',', append(text, value); };
-  for (double value : row.X_BT.p) add(value);
+  for (int k = 0; k < 3; ++k) add(row.X_BT.p[k]);
   for (double value : {q.w(), q.x(), q.y(), q.z()}) add(value);
-  for (double value : row.eigenstiffnesses) add(value);
+  for (int k = 0; k < 6; ++k) add(row.eigenstiffnesses[k]);
   add(row.tau);
 }
 

@@ -1,7 +1,5 @@
 // simulate_bag SCENE.yaml OUT.bag: what rig_simulator would publish, written to a bag without a master.
 
-#include <iostream>
-
 #include "command_line.h"
 #include "rig/rig_model.h"
 #include "live_stiffness/rod/scene_file.h"

@@ -1,6 +1,5 @@
 #include "rig/pressure_program.h"
 
-#include <algorithm>
 #include <cmath>
 #include <random>
 

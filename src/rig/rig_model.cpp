@@ -1,7 +1,6 @@
 #include "rig/rig_model.h"
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>

@@ -104,8 +104,7 @@ void fillRegistration(const LiveRegistration& result, Register::Response& respon
 // A 6x6 matrix, row by row.
 template <class Array>
 void copyRowByRow(const Matrix6& matrix, Array& array) {
-  for (int i = 0; i < 6; ++i)
-    for (int j = 0; j < 6; ++j) array[6 * i + j] = matrix(i, j);
+  Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(array.data()) = matrix;
 }
 
 // Fills what the estimates of all robots (StiffnessEstimate, PlatformEstimate) share. translation: their ellipsoid.

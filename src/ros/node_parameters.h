@@ -12,7 +12,6 @@
 #include "live_stiffness/estimation/tip_wrench_estimator.h"
 #include "ros/conversions.h"
 #include "ros/marker_shapes.h"
-#include "live_stiffness/section/channel_map.h"
 
 namespace live_stiffness {
 

@@ -10,11 +10,18 @@
 
 namespace live_stiffness {
 
-// Status of ROS time: simulated time that has not begun, stands still or jumped back.
-class ClockStatus {
+// Publishes diagnostics, with an entry for ROS time: simulated time that has not begun, stands still or jumped back.
+class NodeDiagnostics : public diagnostic_updater::Updater {
  public:
-  // Call it from a wall timer: while ROS time stands still, no ros::Timer fires.
-  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  NodeDiagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node) : Updater(node, private_node) {
+    setHardwareID("live_stiffness");
+    add("Clock", this, &NodeDiagnostics::diagnoseClock);
+    // Not update(), which waits for ROS time: that may stand still or jump back (findings/diagnostics_after_a_jump_of_time.sh).
+    timer_ = node.createWallTimer(ros::WallDuration(getPeriod()), [this](const ros::WallTimerEvent&) { force_update(); });
+  }
+
+ private:
+  void diagnoseClock(diagnostic_updater::DiagnosticStatusWrapper& status) {
     using diagnostic_msgs::DiagnosticStatus;
     const ros::WallDuration shown(2.0), longest(0.5);
     const double jump = -0.5;  // smaller jumps are corrections of the wall clock
@@ -30,23 +37,8 @@ class ClockStatus {
     status.add("simulated", !ros::Time::isSystemTime());
   }
 
- private:
   ros::Time last_;                // at the last call
   ros::WallTime jumped_, moved_;  // when it jumped back, and when it was last seen to advance
-};
-
-// Publishes diagnostics, with an entry for the clock.
-class NodeDiagnostics : public diagnostic_updater::Updater {
- public:
-  NodeDiagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node) : Updater(node, private_node) {
-    setHardwareID("live_stiffness");
-    add("Clock", &clock_, &ClockStatus::diagnose);
-    // Not update(), which waits for ROS time: that may stand still or jump back (findings/diagnostics_after_a_jump_of_time.sh).
-    timer_ = node.createWallTimer(ros::WallDuration(getPeriod()), [this](const ros::WallTimerEvent&) { force_update(); });
-  }
-
- private:
-  ClockStatus clock_;
   ros::WallTimer timer_;
 };
 
