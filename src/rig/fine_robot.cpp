@@ -94,37 +94,33 @@ FineRobot::RodState FineRobot::integrateChain(const std::vector<LoadedSegment>& 
     if (const auto* link = std::get_if<Link>(&body)) n += link->mass * gravity;
 
   RodState state;
-  state.m = base_moment;
+  state << Eigen::Quaterniond::Identity().coeffs(), Vector3::Zero(), base_moment;
   auto segment = segments.begin();
   for (const Body& body : scene_.chain) {
     if (const auto* link = std::get_if<Link>(&body)) {
-      const Vector3 along = link->length * (state.q * Vector3::UnitZ());
+      const Vector3 along = link->length * (Eigen::Quaterniond(state.head<4>()) * Vector3::UnitZ());
       const Vector3 weight = link->mass * gravity;
       n -= weight;
-      state.m -= along.cross(n) + 0.5 * along.cross(weight);
-      state.p += along;
+      state.tail<3>() -= along.cross(n) + 0.5 * along.cross(weight);
+      state.segment<3>(4) += along;
       continue;
     }
     const Vector3 line_load = segment->mass * gravity / segment->length;
-    using Numbers = Eigen::Matrix<double, 10, 1>;  // of q (x, y, z, w), p and m
-    const auto rate = [&](double s, const Numbers& at) {
+    const auto rate = [&](double s, const RodState& at) {
       const Eigen::Quaterniond q = Eigen::Quaterniond(at.head<4>()).normalized();
       const Matrix3 R = q.toRotationMatrix();
       const Vector3 force = n - s * line_load;
       const Vector3 u = segment->rest_curvature + segment->c.bending_torsion * (R.transpose() * at.tail<3>());
       const Vector3 dp = R * (Vector3::UnitZ() + segment->c.shear_elongation * (R.transpose() * force));
-      Numbers d;
+      RodState d;
       d << 0.5 * (q * Eigen::Quaterniond(0.0, u.x(), u.y(), u.z())).coeffs(), dp, -dp.cross(force);
       return d;
     };
     const double h = segment->length / kRodSteps;
-    Numbers numbers;
-    numbers << state.q.coeffs(), state.p, state.m;
     for (int step = 0; step < kRodSteps; ++step) {
-      numbers = rungeKuttaStep(rate, step * h, h, numbers);
-      numbers.head<4>().normalize();
+      state = rungeKuttaStep(rate, step * h, h, state);
+      state.head<4>().normalize();
     }
-    state = {Eigen::Quaterniond(numbers.head<4>()), numbers.segment<3>(4), numbers.tail<3>()};
     n -= segment->mass * gravity;
     ++segment;
   }
@@ -134,8 +130,8 @@ FineRobot::RodState FineRobot::integrateChain(const std::vector<LoadedSegment>& 
 Vector3 FineRobot::residual(const std::vector<LoadedSegment>& segments, const Vector3& gravity, const Wrench& tip_wrench,
                             const Vector3& base_moment, RodState& end) const {
   end = integrateChain(segments, gravity, tip_wrench, base_moment);
-  const Vector3 arm = end.q * scene_.tip_offset;
-  return end.m - angular(tip_wrench) - arm.cross(linear(tip_wrench) + scene_.tip_mass * gravity);
+  const Vector3 arm = Eigen::Quaterniond(end.head<4>()) * scene_.tip_offset;
+  return end.tail<3>() - angular(tip_wrench) - arm.cross(linear(tip_wrench) + scene_.tip_mass * gravity);
 }
 
 bool FineRobot::newton(const std::vector<LoadedSegment>& segments, const Vector3& gravity, const Wrench& tip_wrench,
@@ -189,8 +185,8 @@ std::optional<Pose> FineRobot::solve(PressuresRef pressures, const Wrench& tip_w
     }
   }
   base_moment_ = base_moment;
-  const Matrix3 R = end.q.toRotationMatrix();
-  return Pose{R, end.p + R * scene_.tip_offset};
+  const Matrix3 R = Eigen::Quaterniond(end.head<4>()).toRotationMatrix();
+  return Pose{R, end.segment<3>(4) + R * scene_.tip_offset};
 }
 
 }  // namespace live_stiffness

@@ -39,11 +39,7 @@ class FineRobot {
     ComplianceDensity c;
     double mass = 0.0;                           // kg
   };
-  struct RodState {
-    Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
-    Vector3 p = Vector3::Zero();  // m
-    Vector3 m = Vector3::Zero();  // N m
-  };
+  using RodState = Eigen::Matrix<double, 10, 1>;  // quaternion (x, y, z, w), p (m) and m (N m) of a section
 
   bool loadSegments(PressuresRef pressures, std::vector<LoadedSegment>& segments) const;
   RodState integrateChain(const std::vector<LoadedSegment>& segments, const Vector3& gravity, const Wrench& tip_wrench,
