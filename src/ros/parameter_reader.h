@@ -83,8 +83,13 @@ class ParameterReader {
   }
   static bool convert(XmlRpc::XmlRpcValue& value, double& number);
   static bool convert(XmlRpc::XmlRpcValue& value, int& number);
-  static bool convert(XmlRpc::XmlRpcValue& value, bool& truth);
-  static bool convert(XmlRpc::XmlRpcValue& value, std::string& text);
+  template <class Field>  // bool or std::string
+  static bool convert(XmlRpc::XmlRpcValue& value, Field& field) {
+    using XmlRpc::XmlRpcValue;
+    if (value.getType() != (std::is_same_v<Field, bool> ? XmlRpcValue::TypeBoolean : XmlRpcValue::TypeString)) return false;
+    field = static_cast<Field&>(value);
+    return true;
+  }
   template <class Element>
   static bool convert(XmlRpc::XmlRpcValue& value, std::vector<Element>& list) {
     if (value.getType() != XmlRpc::XmlRpcValue::TypeArray) return false;
