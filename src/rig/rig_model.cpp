@@ -60,18 +60,13 @@ Vector3 whiteNoise(std::mt19937_64& random, double rms_magnitude) {
   return rms_magnitude / std::sqrt(3.0) * Vector3(x, y, z);
 }
 
-ProgramOptions seeded(ProgramOptions program, std::mt19937_64& random) {
-  program.seed = random();
-  return program;
-}
-
 }  // namespace
 
 RigModel::RigModel(Scene scene, const RigOptions& options)
     : options_(options),
       channel_map_(checkedChannelMap(scene, options)),
       random_(options.seed),
-      program_(channel_map_.channelCount(), seeded(options.program, random_)),
+      program_(channel_map_.channelCount(), options.program, random_()),
       robot_(std::move(scene)),
       regulator_(channel_map_.channelCount(), options.regulator_time_constant),
       creep_(channel_map_.chamberCount(), options.creep_time_constant) {

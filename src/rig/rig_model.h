@@ -25,7 +25,7 @@ namespace live_stiffness {
 
 struct RigOptions {
   std::vector<int> channel_of_chamber;  // see ChannelMap; empty: one channel per chamber
-  ProgramOptions program;               // its seed is replaced by one drawn from `seed`
+  ProgramOptions program;
   std::uint64_t seed = static_cast<std::uint64_t>(kSeed.standard);  // of everything random here
 
   double regulator_time_constant = kRegulatorTimeConstant.standard;  // s

@@ -18,7 +18,7 @@ RigOptions rigOptions() {
   RigOptions options;
   options.drop_out_probability = 0.0;
   options.channel_of_chamber = {0, 0, 1, 1, 2, 2};
-  options.program = {ProgramKind::kTriangle, 80000.0, 10.0, 1};
+  options.program = {"triangle", 80000.0, 10.0};
   options.registration.X_AB = {expSo3(Vector3(0.4, -0.2, 2.0)), Vector3(0.1, 0.2, -0.3)};
   options.registration.X_TS = {expSo3(Vector3(0.1, 0.3, -1.0)), Vector3(0.01, 0.0, 0.003)};
   return options;
@@ -38,7 +38,7 @@ std::vector<RigSample> run(RigModel rig, double end, double step) {
 
 TEST(RigModel, EqualSeedsGiveEqualSamples) {
   RigOptions o = rigOptions();
-  o.program.kind = ProgramKind::kRandomWalk;
+  o.program.kind = "random_walk";
   o.drop_out_probability = 0.05;
   const auto a = run(RigModel(scene(), o), 10.0, 0.05), b = run(RigModel(scene(), o), 10.0, 0.05);
   o.seed = 2;
@@ -130,7 +130,7 @@ TEST(RigModel, DoesNotDependOnTheStepWhereTheCommandIsLinear) {
 TEST(RigModel, CreepRelaxesToTheActualPressure) {
   RigOptions o = ideal();
   o.creep_fraction = 0.1;
-  o.program = {ProgramKind::kStaircase, 60000.0, 20.0, 1};  // first level, 20 kPa, from 4 s to 20 s
+  o.program = {"staircase", 60000.0, 20.0};  // first level, 20 kPa, from 4 s to 20 s
   const auto samples = run(RigModel(scene(), o), 19.9, 0.1);
   const auto missing = [&](double time) {
     const RigSample& sample = samples[std::lround(time / 0.1)];
