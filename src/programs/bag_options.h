@@ -25,27 +25,20 @@ class BagOptions {
       ("pressures", value(&format_.pressure_topic)->default_value(format_.pressure_topic), "topic of the pressures in a bag")
       ("pose", value(&format_.pose_topic)->default_value(format_.pose_topic), "topic of the tracker")
       ("tip-wrench", value(&format_.wrench_topic)->default_value(format_.wrench_topic), "topic of the tip wrench");
-    addOption(options, kPressureUnit, pressure_unit_);
-    addOption(options, kPressureReference, pressure_reference_);
-    addOption(options, kBagPositionUnit, position_unit_);
+    addOption(options, kPressureUnit, format_.pressures.unit);
+    addOption(options, kPressureReference, format_.pressures.reference);
+    addOption(options, kBagPositionUnit, format_.position_unit);
   }
 
   // Adds a fault for every option with an illegal value.
-  BagFormat format(FaultList& faults) const {
-    faults.check(kPressureUnit, pressure_unit_);
-    faults.check(kPressureReference, pressure_reference_);
-    faults.check(kBagPositionUnit, position_unit_);
-    BagFormat format = format_;
-    format.pressures.unit = pascalsPerUnit(pressure_unit_);
-    format.pressures.absolute = pressure_reference_ == "absolute";
-    format.position_unit = position_unit_ == "mm" ? 1e-3 : 1.0;
-    return format;
+  const BagFormat& format(FaultList& faults) const {
+    faults.checkAll(format_.pressures);
+    faults.check(kBagPositionUnit, format_.position_unit);
+    return format_;
   }
 
  private:
   BagFormat format_;
-  std::string pressure_unit_ = kPressureUnit.standard, pressure_reference_ = kPressureReference.standard,
-              position_unit_ = kPositionUnit.standard;
 };
 
 }  // namespace live_stiffness

@@ -30,8 +30,7 @@ struct ParallelParameters {
   ParallelScene scene;
   ParallelOptions model;
   double heartbeat = kParallelHeartbeat.standard;  // Hz
-  std::string length_unit_name = kLengthUnit.standard;
-  double length_unit = 1.0;                             // m per unit of the lengths on the topic, by that name
+  std::string length_unit = kLengthUnit.standard;       // of the lengths on the topic
   double length_timeout = kLengthTimeout.standard;      // s
   double wrench_timeout = kPlatformWrenchTimeout.standard;              // s; 0: keep the last one for ever
   FrameNames frames{kParallelBaseFrame.standard, kPlatformFrame.standard};  // B, P
@@ -42,7 +41,7 @@ struct ParallelParameters {
   static void forEachParameter(Parameters& p, Visit&& visit) {
     visit(kParallelAccuracy, p.model.accuracy);
     visit(kParallelHeartbeat, p.heartbeat);
-    visit(kLengthUnit, p.length_unit_name);
+    visit(kLengthUnit, p.length_unit);
     visit(kLengthTimeout, p.length_timeout);
     visit(kPlatformWrenchTimeout, p.wrench_timeout);
     visit(kParallelBaseFrame, p.frames.base);
@@ -64,7 +63,6 @@ ParallelParameters loadParallelParameters(const ros::NodeHandle& private_node) {
   faults.checkAll(parameters);
   checkFrames(parameters.frames, kPlatformFrame, faults);
   faults.throwIfAny();
-  parameters.length_unit = parameters.length_unit_name == "mm" ? 1e-3 : 1.0;
   parameters.style.frame = parameters.frames.base;
   return parameters;
 }
@@ -109,7 +107,7 @@ class ParallelNode {
   // In the estimation thread.
   void onLengths(const AnyMessage& message) {
     const Lock lock(mutex_);
-    Parsed<Eigen::VectorXd> lengths = readRodLengths(*message.getConstMessage(), parameters_.length_unit);
+    Parsed<Eigen::VectorXd> lengths = readRodLengths(*message.getConstMessage(), metresPerUnit(parameters_.length_unit));
     if (!length_status_.accept(lengths, message.getPublisherName())) return;
     length_stamp_ = lengths.stamp;
     estimator_.setLengths({lengths.value.data(), lengths.value.data() + lengths.value.size()});

@@ -77,7 +77,7 @@ class ArrayBytes {
 
 std::string pressureError(double value, const PressureFormat& format) {
   if (!std::isfinite(value)) return "is " + numberText(value) + ": must be finite";
-  if (format.absolute && value < 0.0)
+  if (format.isAbsolute() && value < 0.0)
     return "is " + numberText(value) + ": an absolute pressure must not be negative; is it gauge? "
            "(set ~pressure_reference: gauge)";
   constexpr double kLargest = 1e8;  // Pa; a glitch beyond would stay in the model of creep for long
@@ -154,7 +154,9 @@ double pascalsPerUnit(const std::string& unit) {
   return 0.0;
 }
 
-double PressureFormat::gauge(double value) const { return value * unit - (absolute ? atmosphere : 0.0); }
+double PressureFormat::gauge(double value) const {
+  return value * pascalsPerUnit(unit) - (isAbsolute() ? atmosphere : 0.0);
+}
 
 Parsed<Pressures> readPressures(const topic_tools::ShapeShifter& message, const PressureFormat& format) {
   Parsed<Pressures> pressures = readArray<ChamberPressures>(message);

@@ -31,9 +31,6 @@ void complete(NodeParameters& p, FaultList& faults) {
   p.contact.checkComponents(faults);
   if (kModel.has(p.model_name) && kStepping.has(p.stepping_name))  // else told already
     p.model = namedModelOptions(p.model_name, p.stepping_name, faults, p.model);
-  p.pressure_format.unit = pascalsPerUnit(p.pressure_unit);
-  p.pressure_format.absolute = p.pressure_reference == "absolute";
-  p.position_unit = p.position_unit_name == "mm" ? 1e-3 : 1.0;
   p.style.frame = p.frames.base;
   checkTopics(p.pressure_topics, faults);
   checkFrames(p.frames, kTipFrame, faults);

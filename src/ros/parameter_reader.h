@@ -85,8 +85,8 @@ class ParameterReader {
   static bool convert(XmlRpc::XmlRpcValue& value, int& number);
   template <class Field>  // bool or std::string
   static bool convert(XmlRpc::XmlRpcValue& value, Field& field) {
-    using XmlRpc::XmlRpcValue;
-    if (value.getType() != (std::is_same_v<Field, bool> ? XmlRpcValue::TypeBoolean : XmlRpcValue::TypeString)) return false;
+    constexpr bool is_bool = std::is_same_v<Field, bool>;
+    if (value.getType() != (is_bool ? XmlRpc::XmlRpcValue::TypeBoolean : XmlRpc::XmlRpcValue::TypeString)) return false;
     field = static_cast<Field&>(value);
     return true;
   }

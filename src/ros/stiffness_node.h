@@ -115,11 +115,11 @@ class StiffnessNode {
   RegistrationService registration_;
   std::unique_ptr<TipHandle> tip_handle_;  // none unless enabled
 
-  NodeDiagnostics diagnostics_;
   double highest_rate_ = 1e5;  // of estimates, Hz
   diagnostic_updater::FrequencyStatus frequency_{{&parameters_.heartbeat, &highest_rate_}, "Estimates"};
   // Of pressures when their estimate is published: at most 0.1 s ahead, at most 1 s behind.
   diagnostic_updater::TimeStampStatus time_stamps_{{-0.1, 1.0}, "Time stamps"};
+  NodeDiagnostics diagnostics_;  // after these, which it reads
 
   StiffnessConfig config_;               // the present one
   boost::recursive_mutex config_mutex_;  // ours: with its own, updateConfig() warns of deadlocks

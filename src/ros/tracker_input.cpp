@@ -12,7 +12,7 @@ TrackerInput::TrackerInput(const ros::NodeHandle& node, const NodeParameters& pa
 }
 
 std::optional<TipMeasurement> TrackerInput::read(const AnyMessage& message) {
-  return accept(readPose(*message.getConstMessage(), parameters_.position_unit));
+  return accept(readPose(*message.getConstMessage(), metresPerUnit(parameters_.position_unit)));
 }
 
 std::optional<TipMeasurement> TrackerInput::lookUp() {
@@ -21,7 +21,7 @@ std::optional<TipMeasurement> TrackerInput::lookUp() {
         tf_.lookupTransform(parameters_.tracker_frame, parameters_.tracker_tf_frame, ros::Time(0));
     if (transform.header.stamp == last_tf_stamp_) return std::nullopt;
     last_tf_stamp_ = transform.header.stamp;
-    return accept(readPose(transform, parameters_.position_unit));
+    return accept(readPose(transform, metresPerUnit(parameters_.position_unit)));
   } catch (const tf2::TransformException& error) {
     status_.reject(error.what());
     return std::nullopt;
