@@ -43,7 +43,7 @@ BagSpan readBag(const std::string& path, const BagFormat& format, BagListener& l
       } else {
         const auto any = message.instantiate<topic_tools::ShapeShifter>();  // any type
         if (topic == pressures) listener.onPressures(readPressures(*any, format.pressures), message.getTime());
-        else listener.onPose(readPose(*any, format.position_unit), message.getTime());
+        else listener.onPose(readPose(*any, metresPerUnit(format.position_unit)), message.getTime());
       }
       if (progress) progress(++done, total);
     }

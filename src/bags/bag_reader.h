@@ -15,7 +15,7 @@ struct BagFormat {
   std::string pressure_topic = "chamber_pressures", pose_topic = "aurora_pose";
   std::string wrench_topic = "tip_force_torque";  // of the force sensor; replay reads a known wrench from tip_wrench instead
   PressureFormat pressures;
-  double position_unit = 1.0;  // m per unit of the tracker's positions
+  std::string position_unit = kPositionUnit.standard;  // of the tracker's positions
 };
 
 // Gets each message of a rig's three topics. recorded: when it was written to the bag, which counts as its time if it has no

@@ -1,6 +1,5 @@
 #include "bags/bag_replay.h"
 
-#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <optional>
@@ -9,15 +8,10 @@
 #include "estimation/motion_history.h"
 #include "bags/bag_reader.h"
 #include "bags/output_bag.h"
+#include "live_stiffness/section/channel_map.h"
 
 namespace live_stiffness {
 namespace {
-
-void addRow(const TopicReport& topic, std::ostream& out) {
-  out << "| " << topic.name << " | " << topic.usable << " | " << topic.unusable << " | " << numberText(topic.rate)
-      << " | " << numberText(topic.longest_gap) << " at " << numberText(topic.gap_start) << " | " << topic.backward
-      << " |\n";
-}
 
 // Counts the messages of a topic.
 class TopicWatch {
@@ -121,20 +115,18 @@ class Replay : public BagListener {
   // Call at the end: closes the bag and gives it its name.
   void finish() { bag_.finish(); }
 
+  // begin: of the bag.
   ReplayReport report(const ros::Time& begin) {
-    ReplayReport report;
-    report.pressures = pressures_.report(begin);
-    report.poses = poses_.report(begin);
-    report.wrenches = wrenches_.report(begin);
-    report.updates = static_cast<long>(times_.size());
-    report.failures = failures_;
-    report.first_failure = first_failure_;
-    report.update_median = quantile(times_, 0.5);
-    report.update_p99 = quantile(times_, 0.99);
-    report.numerical_error_median = quantile(numerical_errors_, 0.5);
-    report.numerical_error_max = quantile(numerical_errors_, 1.0);
-    report.tracking_error = summarizeErrors(tracking_errors_);
-    return report;
+    report_.pressures = pressures_.report(begin);
+    report_.poses = poses_.report(begin);
+    report_.wrenches = wrenches_.report(begin);
+    report_.updates = static_cast<long>(times_.size());
+    report_.update_median = quantile(times_, 0.5);
+    report_.update_p99 = quantile(times_, 0.99);
+    report_.numerical_error_median = quantile(numerical_errors_, 0.5);
+    report_.numerical_error_max = quantile(numerical_errors_, 1.0);
+    report_.tracking_error = summarizeErrors(tracking_errors_);
+    return report_;
   }
 
  private:
@@ -157,7 +149,7 @@ class Replay : public BagListener {
     if (outcome == StiffnessEstimator::Outcome::kUnchanged) return;
     if (outcome == StiffnessEstimator::Outcome::kFailed) {
       is_stale_ = true;
-      if (failures_++ == 0) first_failure_ = estimator_.statusText();
+      if (report_.failures++ == 0) report_.first_failure = estimator_.statusText();
     } else {
       estimate_stamp_ = pressure_stamp_;
       times_.push_back(estimator_.estimate()->solve_time);
@@ -180,8 +172,7 @@ class Replay : public BagListener {
   TopicWatch pressures_, poses_, wrenches_;
   ros::Time recorded_, pressure_stamp_, estimate_stamp_;
   bool is_stale_ = true;  // the estimate is not that of the newest pressures
-  long failures_ = 0;
-  std::string first_failure_;
+  ReplayReport report_;
   std::vector<double> times_, numerical_errors_, tracking_errors_;
 };
 
@@ -213,7 +204,10 @@ std::string ReplayReport::text(const std::string& bag, double accuracy) const {
       << duration << " s of bag in " << wall_time << " s, " << duration / wall_time << " times real time.\n\n"
       << "| topic | usable | unusable | rate, Hz | longest gap, s, at s | stamps going back |\n"
       << "|---|---|---|---|---|---|\n";
-  for (const TopicReport* topic : {&pressures, &poses, &wrenches}) addRow(*topic, out);
+  for (const TopicReport* topic : {&pressures, &poses, &wrenches})
+    out << "| " << topic->name << " | " << topic->usable << " | " << topic->unusable << " | " << numberText(topic->rate)
+        << " | " << numberText(topic->longest_gap) << " at " << numberText(topic->gap_start) << " | " << topic->backward
+        << " |\n";
   for (const TopicReport* topic : {&pressures, &poses, &wrenches})
     if (topic->unusable > 0) out << "\nFirst unusable on " << topic->name << ": " << topic->first_fault << "\n";
   out << "\nUpdates: " << updates << ", failed: " << failures << (failures > 0 ? " (" + first_failure + ")" : "")

@@ -9,13 +9,12 @@
 #include "live_stiffness/estimation/registration.h"
 #include "live_stiffness/estimation/stiffness_estimator.h"
 #include "bags/bag_reader.h"
-#include "live_stiffness/section/channel_map.h"
 
 namespace live_stiffness {
 
 // Options that are parameters of the node.
 struct ReplayOptions {
-  BagFormat format{"chamber_pressures", "aurora_pose", "tip_wrench", {}, 1.0};
+  BagFormat format{"chamber_pressures", "aurora_pose", "tip_wrench", {}, kPositionUnit.standard};
   std::vector<int> channel_of_chamber;  // empty: even groups, see ChannelMap::even()
   Registration registration;
   FrameNames frames{"base", "tip"};

@@ -12,12 +12,6 @@
 namespace live_stiffness {
 namespace {
 
-// The part of a force along the two most compliant principal axes, base axes.
-Vector3 compliantPart(const Eigen::SelfAdjointEigenSolver<Matrix3>& principal, const Vector3& force) {
-  const auto axes = principal.eigenvectors().rightCols<2>();
-  return axes * (axes.transpose() * force);
-}
-
 void findDelay(const std::vector<double>& times, const std::vector<Vector3>& truth,
                const std::vector<Vector3>& estimate, ContactScore& score) {
   constexpr int kSteps = 100;
@@ -48,7 +42,8 @@ ContactScore contactScore(const std::vector<ContactSample>& samples) {
   int firm = 0, firm_seen = 0;
   for (const ContactSample& sample : samples) {
     const Eigen::SelfAdjointEigenSolver<Matrix3> principal(sample.compliance);
-    const auto compliant = [&](const Vector3& force) { return compliantPart(principal, force); };
+    const Eigen::Matrix<double, 3, 2> axes = principal.eigenvectors().rightCols<2>();  // the most compliant ones
+    const auto compliant = [&](const Vector3& force) -> Vector3 { return axes * (axes.transpose() * force); };
     times.push_back(sample.time);
     truths.push_back(compliant(sample.truth));
     estimates.push_back(compliant(sample.estimate));

@@ -56,70 +56,66 @@ void writeRow(std::ostream& out, double time, const TipWrenchEstimator& estimato
   out << '\n';
 }
 
-void run(const std::string& scene_path, const Recording& recorded, const std::string& registration_path,
-         const std::string& output, const std::string& score_path, const ForceSensorMount& mount,
-         const TipWrenchOptions& options) {
-  const Scene scene = loadSceneFile(scene_path);
-  const Registration registration = loadRegistrationFile(registration_path);
-  const Recording recording = withTrackerDelay(recorded, registration.tracker_delay);
-  const ForceReadings readings(recording);
-  const ChannelMap channels = ChannelMap::even(recording.channelCount(), scene.chamberCount());
-  const std::vector<Pressures> gauge = gaugePressures(recording);
-  ModelOptions model;
-  model.stepping = Stepping::kContinuous;
-  TipWrenchEstimator estimator(scene, model, options);
-  std::ostringstream out;
-  out.precision(6);
-  writeHeader(out);
-  std::vector<double> microseconds;
-  std::vector<ContactSample> scored;
-  for (size_t i = 0; i < recording.samples.size(); ++i) {
-    const RecordedSample& sample = recording.samples[i];
-    const Pose X_BT = registration.tipPose(sample.tipPose());
-    const Pressures chambers = channels.expand(gauge[i]);
-    const auto start = std::chrono::steady_clock::now();
-    estimator.update(chambers, X_BT, sample.time);
-    microseconds.push_back(1e6 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-    std::optional<Wrench> measured;
-    if (sample.tip_wrench) measured = readings.atTip(mount, sample.time, X_BT.R);
-    writeRow(out, sample.time, estimator, measured);
-    const TipWrenchEstimate* estimate = estimator.estimate();
-    if (!measured || estimate == nullptr) continue;
-    const Matrix3 C = estimate->solution.compliance.topLeftCorner<3, 3>();
-    scored.push_back({sample.time, linear(*measured), linear(estimate->wrench), 0.5 * (C + C.transpose()),
-                      estimate->contact, mount.seen(X_BT.R)});
-  }
-  if (!output.empty()) writeTextFile("output", output, out.str());
-  else std::cout << out.str();
-  if (!scored.empty()) {
-    const ContactScore score = contactScore(scored);
-    std::cerr << score.text() << "\n";
-    if (!score_path.empty()) writeTextFile("output", score_path, score.table());
-  }
-  const auto text = [&](double share) { return numberText(quantile(microseconds, share)); };
-  std::cerr << "one update: median " << text(0.5) << " us, 99 % below " << text(0.99) << " us, slowest " << text(1.0)
-            << " us (" << microseconds.size() << " samples)\n";
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string scene, recording, registration, output, score;
+  std::string scene_path, recording_path, registration_path, output, score_path;
   ForceSensorOptions force_sensor;
   RecordingReader reader;
   TipWrenchOptions filter;
   po::options_description options = helpOption();
   options.add_options()
-    ("scene", po::value(&scene)->required(), "scene of the recorded robot")
-    ("recording", po::value(&recording)->required(), "CSV recording, or a bag")
-    ("registration", po::value(&registration)->required(), "registration file, as register_recording writes it")
+    ("scene", po::value(&scene_path)->required(), "scene of the recorded robot")
+    ("recording", po::value(&recording_path)->required(), "CSV recording, or a bag")
+    ("registration", po::value(&registration_path)->required(), "registration file, as register_recording writes it")
     ("output,o", po::value(&output), "CSV file to write (standard output)")
-    ("score", po::value(&score), "CSV file to write how well the estimate follows the recorded force: quantity,value");
+    ("score", po::value(&score_path), "CSV file to write how well the estimate follows the recorded force: quantity,value");
   addOptions(options, filter);
   force_sensor.addTo(options);
   reader.addOptionsTo(options);
   return runProgram({argv, argv + argc}, kHelp, options, {{"scene", 1}, {"recording", 1}}, [&](const po::variables_map&) {
-    run(scene, reader.load(recording), registration, output, score, force_sensor.mount(), filter);
+    const ForceSensorMount mount = force_sensor.mount();
+    const Recording recorded = reader.load(recording_path);
+    const Scene scene = loadSceneFile(scene_path);
+    const Registration registration = loadRegistrationFile(registration_path);
+    const Recording recording = withTrackerDelay(recorded, registration.tracker_delay);
+    const ForceReadings readings(recording);
+    const ChannelMap channels = ChannelMap::even(recording.channelCount(), scene.chamberCount());
+    const std::vector<Pressures> gauge = gaugePressures(recording);
+    ModelOptions model;
+    model.stepping = Stepping::kContinuous;
+    TipWrenchEstimator estimator(scene, model, filter);
+    std::ostringstream out;
+    out.precision(6);
+    writeHeader(out);
+    std::vector<double> microseconds;
+    std::vector<ContactSample> scored;
+    for (size_t i = 0; i < recording.samples.size(); ++i) {
+      const RecordedSample& sample = recording.samples[i];
+      const Pose X_BT = registration.tipPose(sample.tipPose());
+      const Pressures chambers = channels.expand(gauge[i]);
+      const auto start = std::chrono::steady_clock::now();
+      estimator.update(chambers, X_BT, sample.time);
+      microseconds.push_back(1e6 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+      std::optional<Wrench> measured;
+      if (sample.tip_wrench) measured = readings.atTip(mount, sample.time, X_BT.R);
+      writeRow(out, sample.time, estimator, measured);
+      const TipWrenchEstimate* estimate = estimator.estimate();
+      if (!measured || estimate == nullptr) continue;
+      const Matrix3 C = estimate->solution.compliance.topLeftCorner<3, 3>();
+      scored.push_back({sample.time, linear(*measured), linear(estimate->wrench), 0.5 * (C + C.transpose()),
+                        estimate->contact, mount.seen(X_BT.R)});
+    }
+    if (!output.empty()) writeTextFile("output", output, out.str());
+    else std::cout << out.str();
+    if (!scored.empty()) {
+      const ContactScore score = contactScore(scored);
+      std::cerr << score.text() << "\n";
+      if (!score_path.empty()) writeTextFile("output", score_path, score.table());
+    }
+    const auto text = [&](double share) { return numberText(quantile(microseconds, share)); };
+    std::cerr << "one update: median " << text(0.5) << " us, 99 % below " << text(0.99) << " us, slowest " << text(1.0)
+              << " us (" << microseconds.size() << " samples)\n";
     return kExitOk;
   });
 }

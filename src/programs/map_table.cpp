@@ -8,27 +8,21 @@
 namespace live_stiffness {
 namespace {
 
-std::vector<std::string> valueNames(const StiffnessCriterion& criterion) {
-  std::vector<std::string> names = {"x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"};
-  for (int i = 1; i <= 6; ++i) names.push_back("eta_" + std::to_string(i) + "_n");
-  names.push_back(std::string(criterion.unit()) == "N" ? "tau_n" : "tau_n_per_m");
-  return names;
-}
-
-constexpr int kValues = 14;
-
-void valuesOf(const SweepRow& row, double* out) {
-  const Eigen::Quaterniond q(row.X_BT.R);
-  const double pose[] = {row.X_BT.p.x(), row.X_BT.p.y(), row.X_BT.p.z(), q.w(), q.x(), q.y(), q.z()};
-  std::copy(pose, pose + 7, out);
-  std::copy(row.eigenstiffnesses.data(), row.eigenstiffnesses.data() + 6, out + 7);
-  out[13] = row.tau;
-}
+constexpr int kValues = 14;  // columns after the status
 
 void append(std::string& text, double value) {
   char digits[32];
   const int size = std::snprintf(digits, sizeof digits, "%.10g", value);  // beyond the accuracy of the solve
   text.append(digits, size);
+}
+
+void appendValues(const SweepRow& row, std::string& text) {
+  const Eigen::Quaterniond q(row.X_BT.R);
+  const auto add = [&](double value) { text += ',', append(text, value); };
+  for (int k = 0; k < 3; ++k) add(row.X_BT.p[k]);
+  for (double value : {q.w(), q.x(), q.y(), q.z()}) add(value);
+  for (int k = 0; k < 6; ++k) add(row.eigenstiffnesses[k]);
+  add(row.tau);
 }
 
 }  // namespace
@@ -40,9 +34,9 @@ MapTable::MapTable(const std::string& path, const PressurePlan& plan, const Stif
     if (file_ == nullptr) throw ConfigurationError("output " + path, {writeFault(path)});
   }
   for (int k = 1; k <= plan.channels().chamberCount(); ++k) std::fprintf(file_, "p_%d_pa,", k);
-  std::fputs("status", file_);
-  for (const std::string& name : valueNames(criterion)) std::fprintf(file_, ",%s", name.c_str());
-  std::fputc('\n', file_);
+  std::fputs("status,x_m,y_m,z_m,qw,qx,qy,qz,", file_);
+  for (int i = 1; i <= 6; ++i) std::fprintf(file_, "eta_%d_n,", i);
+  std::fputs(std::string(criterion.unit()) == "N" ? "tau_n\n" : "tau_n_per_m\n", file_);
 }
 
 MapTable::~MapTable() {
@@ -52,17 +46,12 @@ MapTable::~MapTable() {
 std::string MapTable::textOf(long first, const std::vector<SweepRow>& rows, size_t begin, size_t end) const {
   std::string text;
   Pressures chambers(plan_.channels().chamberCount());
-  double values[kValues];
   for (size_t i = begin; i != end; ++i) {
     plan_.chamberPressures(first + static_cast<long>(i), chambers);
     for (int k = 0; k < chambers.size(); ++k) append(text, chambers[k]), text += ',';
     text += codeName(rows[i].code);
-    if (rows[i].code == SolveCode::kOk) {
-      valuesOf(rows[i], values);
-      for (double value : values) text += ',', append(text, value);
-    } else {
-      text.append(kValues, ',');
-    }
+    if (rows[i].code == SolveCode::kOk) appendValues(rows[i], text);
+    else text.append(kValues, ',');
     text += '\n';
   }
   return text;

@@ -18,8 +18,6 @@ class MapTable {
   // Starts the file; path -: standard output. Throws ConfigurationError if it cannot be written.
   MapTable(const std::string& path, const PressurePlan& plan, const StiffnessCriterion& criterion);
   ~MapTable();
-  MapTable(const MapTable&) = delete;
-  MapTable& operator=(const MapTable&) = delete;
 
   // Rows from `first` on; texts are made on all cores.
   void write(long first, const std::vector<SweepRow>& rows);

@@ -3,7 +3,6 @@
 // Rod lengths in; pose and compliance of the platform, tf, markers and diagnostics out. Two threads: one takes inputs and
 // publishes estimates; markers and diagnostics, on the global callback queue, lock its state only while they copy it.
 
-#include <diagnostic_updater/diagnostic_updater.h>
 #include <live_stiffness/PlatformEstimate.h>
 #include <ros/callback_queue.h>
 
@@ -31,8 +30,7 @@ struct ParallelParameters {
   ParallelScene scene;
   ParallelOptions model;
   double heartbeat = kParallelHeartbeat.standard;  // Hz
-  std::string length_unit_name = kLengthUnit.standard;
-  double length_unit = 1.0;                             // m per unit of the lengths on the topic, by that name
+  std::string length_unit = kLengthUnit.standard;       // of the lengths on the topic
   double length_timeout = kLengthTimeout.standard;      // s
   double wrench_timeout = kPlatformWrenchTimeout.standard;              // s; 0: keep the last one for ever
   FrameNames frames{kParallelBaseFrame.standard, kPlatformFrame.standard};  // B, P
@@ -43,7 +41,7 @@ struct ParallelParameters {
   static void forEachParameter(Parameters& p, Visit&& visit) {
     visit(kParallelAccuracy, p.model.accuracy);
     visit(kParallelHeartbeat, p.heartbeat);
-    visit(kLengthUnit, p.length_unit_name);
+    visit(kLengthUnit, p.length_unit);
     visit(kLengthTimeout, p.length_timeout);
     visit(kPlatformWrenchTimeout, p.wrench_timeout);
     visit(kParallelBaseFrame, p.frames.base);
@@ -65,7 +63,6 @@ ParallelParameters loadParallelParameters(const ros::NodeHandle& private_node) {
   faults.checkAll(parameters);
   checkFrames(parameters.frames, kPlatformFrame, faults);
   faults.throwIfAny();
-  parameters.length_unit = parameters.length_unit_name == "mm" ? 1e-3 : 1.0;
   parameters.style.frame = parameters.frames.base;
   return parameters;
 }
@@ -82,8 +79,7 @@ PlatformEstimate toEstimate(const ParallelEstimate& estimate, const ros::Time& s
 class ParallelNode {
  public:
   ParallelNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
-      : node_(node),
-        parameters_(loadParallelParameters(private_node)),
+      : parameters_(loadParallelParameters(private_node)),
         estimator_(parameters_.scene, parameters_.model),
         length_status_({"rod_lengths", "rod lengths", "rod lengths", "", parameters_.scene.rodCount(),
                         parameters_.length_timeout}),
@@ -99,9 +95,7 @@ class ParallelNode {
     wrench_subscriber_ = estimation.subscribe("platform_wrench", 10, &ParallelNode::onWrench, this);
     // Wall time: simulated time may stand still or jump back.
     timers_ = {estimation.createWallTimer(ros::WallDuration(1.0 / parameters_.heartbeat), &ParallelNode::onHeartbeat, this),
-               node_.createWallTimer(ros::WallDuration(1.0 / parameters_.marker_rate), &ParallelNode::onMarkers, this),
-               node_.createWallTimer(ros::WallDuration(diagnostics_.getPeriod()),
-                                     [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); })};
+               node.createWallTimer(ros::WallDuration(1.0 / parameters_.marker_rate), &ParallelNode::onMarkers, this)};
     ROS_INFO("%d rods", parameters_.scene.rodCount());
     estimation_spinner_.start();
   }
@@ -113,7 +107,7 @@ class ParallelNode {
   // In the estimation thread.
   void onLengths(const AnyMessage& message) {
     const Lock lock(mutex_);
-    Parsed<Eigen::VectorXd> lengths = readRodLengths(*message.getConstMessage(), parameters_.length_unit);
+    Parsed<Eigen::VectorXd> lengths = readRodLengths(*message.getConstMessage(), metresPerUnit(parameters_.length_unit));
     if (!length_status_.accept(lengths, message.getPublisherName())) return;
     length_stamp_ = lengths.stamp;
     estimator_.setLengths({lengths.value.data(), lengths.value.data() + lengths.value.size()});
@@ -174,7 +168,6 @@ class ParallelNode {
       marker_publisher_.publish(makeParallelMarkers(*newest, parameters_.scene, stale, parameters_.style, stamp));
   }
   void addDiagnostics() {
-    diagnostics_.setHardwareID("live_stiffness");
     diagnostics_.add("Rod lengths", [this](Status& status) {
       const Lock lock(mutex_);
       length_status_.diagnose(estimator_.statusText(), status);
@@ -183,10 +176,8 @@ class ParallelNode {
       const Lock lock(mutex_);
       reportSolver(estimator_, wrench_input_.error(), status);
     });
-    diagnostics_.add("Clock", &clock_status_, &ClockStatus::diagnose);
   }
 
-  ros::NodeHandle node_;
   ros::CallbackQueue estimation_queue_;
   ParallelParameters parameters_;
 
@@ -199,8 +190,7 @@ class ParallelNode {
   ros::Time estimate_stamp_;  // of the lengths of the last good estimate
 
   ros::Publisher estimate_publisher_, marker_publisher_;
-  ClockStatus clock_status_;
-  diagnostic_updater::Updater diagnostics_;
+  NodeDiagnostics diagnostics_;
 
   // Last, so that no callback runs before the rest exists; and the spinner stops first.
   AnyTypeSubscriber length_subscriber_;

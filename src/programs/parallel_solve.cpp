@@ -14,61 +14,52 @@ using namespace live_stiffness;
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 // Points of every rod, evenly from base to platform.
 struct RodShapes {
   std::vector<double> fractions;
 
-  std::vector<std::string> names(int rods) const {
-    std::vector<std::string> names;
+  void addColumns(int rods, std::vector<std::string>& names) const {
     for (int rod = 1; rod <= rods; ++rod)
       for (size_t i = 1; i <= fractions.size(); ++i)
         for (const char* axis : {"x", "y", "z"})
           names.push_back("r" + std::to_string(rod) + "_" + std::to_string(i) + "_" + axis + "_m");
-    return names;
   }
-  void append(const ParallelModel& model, const ParallelWorkspace& workspace, ResultRow& row) const {
-    if (!row.status.ok() || fractions.empty()) return;
+  void appendPoints(const ParallelModel& model, const ParallelWorkspace& workspace, std::vector<double>& numbers) const {
+    if (fractions.empty()) return;
     std::vector<Pose> points;
     for (int rod = 0; rod < model.scene().rodCount(); ++rod) {
       model.stations(workspace, rod, fractions, points);
-      for (const Pose& point : points) row.more.insert(row.more.end(), point.p.data(), point.p.data() + 3);
+      for (const Pose& point : points) append(point.p, numbers);
     }
   }
 };
 
-// Rows do not depend on one another. Both return the number that failed.
-long solveLengths(const ParallelModel& model, const RodShapes& shapes) {
-  InputTable table(std::cin, numberedColumns("l_", "_m", model.scene().rodCount()));
+// Rows do not depend on one another. Returns the number that failed. inverse: poses are given, and lengths found.
+long solveAll(const ParallelModel& model, const RodShapes& shapes, bool inverse) {
+  std::vector<std::string> inputs, further;
+  if (inverse) addPoseColumns("", inputs);
+  for (const std::string& length : numberedColumns("l_", "_m", model.scene().rodCount()))
+    (inverse ? further : inputs).push_back(length);
+  shapes.addColumns(model.scene().rodCount(), further);
+  InputTable table(std::cin, inputs);
   ParallelWorkspace workspace = model.makeWorkspace();
-  return solveTable(table, shapes.names(model.scene().rodCount()), [&](const InputRow& input) {
-    const std::vector<double> lengths(input.values.data(), input.values.data() + input.values.size());
-    workspace.reset();
-    const auto start = Clock::now();
-    const ParallelSolution solution = model.solve(lengths, input.wrench, workspace);
-    ResultRow row = resultRow(model, solution, solution.X_BP, start);
-    shapes.append(model, workspace, row);
-    return row;
-  });
-}
-
-long solvePoses(const ParallelModel& model, const RodShapes& shapes) {
-  InputTable table(std::cin, {"x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"});
-  ParallelWorkspace workspace = model.makeWorkspace();
-  std::vector<std::string> further = numberedColumns("l_", "_m", model.scene().rodCount());
-  for (const std::string& name : shapes.names(model.scene().rodCount())) further.push_back(name);
-  return solveTable(table, further, [&](const InputRow& input) {
+  const auto solve = [&](const InputRow& input) {
     const auto& v = input.values;
+    if (!inverse) return model.solve({v.data(), v.data() + v.size()}, input.wrench, workspace);
     const Eigen::Quaterniond q(v[3], v[4], v[5], v[6]);
     Pose X_BP{q.normalized().toRotationMatrix(), v.head<3>()};
     if (!(std::abs(q.norm() - 1.0) < 1e-3)) X_BP.R.setConstant(std::nan(""));  // refused as no rotation
+    return model.solveForLengths(X_BP, input.wrench, workspace);
+  };
+  return solveTable(table, further, [&](const InputRow& input) {
     workspace.reset();
-    const auto start = Clock::now();
-    const ParallelSolution solution = model.solveForLengths(X_BP, input.wrench, workspace);
+    const auto start = std::chrono::steady_clock::now();
+    const ParallelSolution solution = solve(input);
     ResultRow row = resultRow(model, solution, solution.X_BP, start);
-    for (double length : workspace.lengths()) row.more.push_back(length);
-    shapes.append(model, workspace, row);
+    if (!row.status.ok()) return row;
+    if (inverse)
+      for (double length : workspace.lengths()) row.numbers.push_back(length);
+    shapes.appendPoints(model, workspace, row.numbers);
     return row;
   });
 }
@@ -104,7 +95,6 @@ int main(int argc, char** argv) {
     for (int i = 0; i < points; ++i) shapes.fractions.push_back(i / (points - 1.0));
     const ParallelModel model(loadParallelSceneFile(scene_path), parallel_options);
     std::ios::sync_with_stdio(false);
-    const long failed = values.count("inverse") ? solvePoses(model, shapes) : solveLengths(model, shapes);
-    return failed > 0 ? kExitPartly : kExitOk;
+    return solveAll(model, shapes, values.count("inverse") > 0) > 0 ? kExitPartly : kExitOk;
   });
 }

@@ -29,55 +29,18 @@ TrackerDelay delayLeft(const Recording& recording, const RecordingFit& fit) {
   return fitTrackerDelay(recording, predicted);
 }
 
-int run(const std::string& scene_path, const RecordingReader& reader, const std::string& recording_path,
-        const std::string& output_path,
-        const std::string& samples, bool orientation, double tracker_delay, bool fit_delay) {
-  FaultList faults("options");
-  faults.check("tracker-delay-s", tracker_delay, {-Registration::kLargestDelay, Registration::kLargestDelay});
-  const SampleChoice choice = sampleChoice(samples, faults);
-  faults.throwIfAny();
-  CalibrationOptions options;
-  options.model.stepping = Stepping::kContinuous;
-  if (!orientation) options.rotation_sigma = 0.0;
-  const Scene scene = loadSceneFile(scene_path);
-  const Recording recording = reader.load(recording_path);
-  const ChannelMap channels = ChannelMap::even(recording.channelCount(), scene.chamberCount());
-  const auto registered = [&](double delay) {
-    const CalibrationRecording data(withTrackerDelay(recording, delay), choice, LoadedSamples::kIgnore);
-    return calibrate(scene, channels, {}, {data}, {}, options);
-  };
-  CalibrationResult result = registered(tracker_delay);
-  TrackerDelay found;
-  found.determined = true;
-  // Twice, as a registration by samples in motion is wrong by the delay at first.
-  for (int round = 0; fit_delay && found.determined && round < 2; ++round) {
-    const double rms_before = found.rms_before;
-    found = delayLeft(withTrackerDelay(recording, tracker_delay), result.recordings[0]);
-    if (round > 0) found.rms_before = rms_before;
-    found.delay = tracker_delay += found.delay;
-    result = registered(tracker_delay);
-  }
-  const std::string report = reportText(result) + (fit_delay ? found.text() + "\n" : "");
-  std::cout << report;
-  Registration registration = result.recordings[0].registration;
-  registration.tracker_delay = tracker_delay;
-  saveRegistrationFile(output_path, registration,
-                       "register_recording: " + recording_path + " with scene " + scene_path + "\n" + report);
-  return result.recordings[0].determined && found.determined ? kExitOk : kExitPartly;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string scene, recording, output, samples = "all";
+  std::string scene_path, recording_path, output_path, samples = "all";
   bool no_orientation = false, fit_delay = false;
   double tracker_delay = 0.0;
   RecordingReader reader;
   po::options_description options = helpOption();
   options.add_options()
-    ("scene", po::value(&scene)->required(), "scene of the recorded robot")
-    ("recording", po::value(&recording)->required(), "CSV recording, or a bag")
-    ("output", po::value(&output)->required(), "registration file to write")
+    ("scene", po::value(&scene_path)->required(), "scene of the recorded robot")
+    ("recording", po::value(&recording_path)->required(), "CSV recording, or a bag")
+    ("output", po::value(&output_path)->required(), "registration file to write")
     ("samples", po::value(&samples)->default_value(samples), "all (in motion too), or quasi_static (at rest only)")
     ("no-orientation", po::bool_switch(&no_orientation), "use positions only; the sensor's rotation is then their mean")
     ("tracker-delay-s", po::value(&tracker_delay)->default_value(0.0), "delay of the tracker relative to the pressures")
@@ -85,6 +48,37 @@ int main(int argc, char** argv) {
   reader.addOptionsTo(options);
   return runProgram({argv, argv + argc}, kHelp, options, {{"scene", 1}, {"recording", 1}, {"output", 1}},
                     [&](const po::variables_map&) {
-    return run(scene, reader, recording, output, samples, !no_orientation, tracker_delay, fit_delay);
+    FaultList faults("options");
+    faults.check("tracker-delay-s", tracker_delay, {-Registration::kLargestDelay, Registration::kLargestDelay});
+    const SampleChoice choice = sampleChoice(samples, faults);
+    faults.throwIfAny();
+    CalibrationOptions fit_options;
+    fit_options.model.stepping = Stepping::kContinuous;
+    if (no_orientation) fit_options.rotation_sigma = 0.0;
+    const Scene scene = loadSceneFile(scene_path);
+    const Recording recording = reader.load(recording_path);
+    const ChannelMap channels = ChannelMap::even(recording.channelCount(), scene.chamberCount());
+    const auto registered = [&](double delay) {
+      const CalibrationRecording data(withTrackerDelay(recording, delay), choice, LoadedSamples::kIgnore);
+      return calibrate(scene, channels, {}, {data}, {}, fit_options);
+    };
+    CalibrationResult result = registered(tracker_delay);
+    TrackerDelay found;
+    found.determined = true;
+    // Twice, as a registration by samples in motion is wrong by the delay at first.
+    for (int round = 0; fit_delay && found.determined && round < 2; ++round) {
+      const double rms_before = found.rms_before;
+      found = delayLeft(withTrackerDelay(recording, tracker_delay), result.recordings[0]);
+      if (round > 0) found.rms_before = rms_before;
+      found.delay = tracker_delay += found.delay;
+      result = registered(tracker_delay);
+    }
+    const std::string report = reportText(result) + (fit_delay ? found.text() + "\n" : "");
+    std::cout << report;
+    Registration registration = result.recordings[0].registration;
+    registration.tracker_delay = tracker_delay;
+    saveRegistrationFile(output_path, registration,
+                         "register_recording: " + recording_path + " with scene " + scene_path + "\n" + report);
+    return result.recordings[0].determined && found.determined ? kExitOk : kExitPartly;
   });
 }

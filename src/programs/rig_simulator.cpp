@@ -36,8 +36,6 @@ RigParameters loadRigParameters(const ros::NodeHandle& private_node) {
   ParameterReader read(private_node, faults);
   RigParameters parameters;
   RigOptions& options = parameters.options;
-  std::string program = kProgram.standard;
-  read(kProgram, program);
   RigOptions::forEachParameter(options, read);
   options.contact.wrench << readVector3(read, kPushForce, faults), readVector3(read, kPushMoment, faults);
   read(kSampleRate, parameters.rate);
@@ -46,7 +44,6 @@ RigParameters loadRigParameters(const ros::NodeHandle& private_node) {
   read.file(kSceneFile, loadSceneFile, parameters.scene, true);
   read.file(kRigRegistrationFile, loadRegistrationFile, options.registration);
   read.warnOfUnknown("rig_simulator");
-  options.program.kind = programKind(program, faults);
   faults.check(kSampleRate, parameters.rate);
   faults.checkAll(options);
   options.contact.check(faults);

@@ -1,7 +1,5 @@
 // simulate_bag SCENE.yaml OUT.bag: what rig_simulator would publish, written to a bag without a master.
 
-#include <iostream>
-
 #include "command_line.h"
 #include "rig/rig_model.h"
 #include "live_stiffness/rod/scene_file.h"
@@ -21,7 +19,7 @@ const char* const kHelp =
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string scene_path, bag_path, program = kProgram.standard, registration_path;
+  std::string scene_path, bag_path, registration_path;
   double seconds = 20.0, rate = kSampleRate.standard;
   std::vector<double> push_n;
   int channels = 0;
@@ -41,13 +39,13 @@ int main(int argc, char** argv) {
     ("push-period-s", po::value(&contact.period)->default_value(contact.period),
      "from push to push, each turned by 90 deg about z; 0: one push only")
     ("registration", po::value(&registration_path), "where base and sensor are (default: identity)");
-  addOption(options, kProgram, program);
+  addOption(options, kProgram, rig_options.program.kind);
   addOption(options, kSampleRate, rate);
   addOption(options, kAmplitude, rig_options.program.amplitude);
   addOption(options, kSeed, rig_options.seed);
   return runProgram({argv, argv + argc}, kHelp, options, {{"scene", 1}, {"bag", 1}}, [&](const po::variables_map&) {
     FaultList faults("options");
-    rig_options.program.kind = programKind(program, faults);
+    faults.check(kProgram, rig_options.program.kind);
     faults.check("seconds", seconds, {0.1, 1e5});
     faults.check(kSampleRate, rate);
     if (!push_n.empty() && push_n.size() != 3)

@@ -11,35 +11,46 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-void printHeader(const std::vector<std::string>& further_columns) {
-  std::string header = "status,iterations,solve_us,x_m,y_m,z_m,qw,qx,qy,qz";
-  for (const char* matrix : {"c_", "material_"})
-    for (int i = 1; i <= 6; ++i)
-      for (int j = 1; j <= 6; ++j) header += "," + (matrix + std::to_string(i)) + std::to_string(j);
-  for (const std::string& name : further_columns) header += "," + name;
-  std::puts(header.c_str());
+// Of a row without further columns.
+std::vector<std::string> resultColumns() {
+  std::vector<std::string> names{"status", "iterations", "solve_us"};
+  addPoseColumns("", names);
+  for (const char* matrix : {"c_", "material_"}) addMatrixColumns(matrix, names);
+  return names;
 }
 
-void printNumber(double value) { std::printf(",%.17g", value); }
-
-void printRow(const ResultRow& row, size_t further_columns) {
-  std::fputs(codeName(row.status.code), stdout);
-  if (!row.status.ok()) {
-    for (size_t column = 0; column < 9 + 72 + further_columns; ++column) std::putchar(',');
+void printRow(const ResultRow& row, size_t columns) {
+  std::string text = codeName(row.status.code);
+  if (row.status.ok()) {
+    std::printf("%s,%d,%.3f", text.c_str(), row.iterations, row.solve_us);
+    for (double number : row.numbers) std::printf(",%.17g", number);
+    std::putchar('\n');
   } else {
-    std::printf(",%d,%.3f", row.iterations, row.solve_us);
-    for (int i = 0; i < 3; ++i) printNumber(row.X.p[i]);
-    const Eigen::Quaterniond q(row.X.R);
-    for (double value : {q.w(), q.x(), q.y(), q.z()}) printNumber(value);
-    for (const Matrix6* matrix : {&row.compliance, &row.material_compliance})
-      for (int i = 0; i < 6; ++i)
-        for (int j = 0; j < 6; ++j) printNumber((*matrix)(i, j));
-    for (double value : row.more) printNumber(value);
+    std::puts(text.append(columns - 1, ',').c_str());
   }
-  std::putchar('\n');
 }
 
 }  // namespace
+
+void addPoseColumns(const std::string& before, std::vector<std::string>& names) {
+  for (const char* name : {"x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"}) names.push_back(before + name);
+}
+
+void addMatrixColumns(const std::string& before, std::vector<std::string>& names) {
+  for (int i = 1; i <= 6; ++i)
+    for (int j = 1; j <= 6; ++j) names.push_back(before + std::to_string(i) + std::to_string(j));
+}
+
+void append(const Pose& X, std::vector<double>& numbers) {
+  append(X.p, numbers);
+  const Eigen::Quaterniond q(X.R);
+  for (double value : {q.w(), q.x(), q.y(), q.z()}) numbers.push_back(value);
+}
+
+void append(const Matrix6& matrix, std::vector<double>& numbers) {
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j) numbers.push_back(matrix(i, j));
+}
 
 InputTable::InputTable(std::istream& input, const std::vector<std::string>& inputs) : table_(input) {
   FaultList faults("header of the table on standard input");
@@ -69,7 +80,9 @@ long solveTable(InputTable& table, const std::vector<std::string>& further_colum
   const bool shows_progress = isatty(STDERR_FILENO) && !isatty(STDOUT_FILENO);
   auto last_progress = Clock::now();
   long rows = 0, failed = 0;
-  printHeader(further_columns);
+  std::vector<std::string> columns = resultColumns();
+  columns.insert(columns.end(), further_columns.begin(), further_columns.end());
+  for (size_t k = 0; k < columns.size(); ++k) std::printf("%s%c", columns[k].c_str(), k + 1 < columns.size() ? ',' : '\n');
   InputRow input;
   while (table.next(input)) {
     ResultRow row;
@@ -79,7 +92,7 @@ long solveTable(InputTable& table, const std::vector<std::string>& further_colum
       row.status.code = SolveCode::kInvalidInput;
       row.fault = input.fault;
     }
-    printRow(row, further_columns.size());
+    printRow(row, columns.size());
     ++rows;
     if (!row.fault.empty()) {
       ++failed;

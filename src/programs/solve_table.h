@@ -33,17 +33,24 @@ class InputTable {
   std::vector<int> inputs_, wrench_;  // columns; wrench_ is empty when there is none
 };
 
+// Adds the columns of a pose (m; quaternion) and of a 6x6 matrix (row by row), and their numbers.
+void addPoseColumns(const std::string& before, std::vector<std::string>& names);
+void addMatrixColumns(const std::string& before, std::vector<std::string>& names);
+void append(const Pose& X, std::vector<double>& numbers);
+void append(const Matrix6& matrix, std::vector<double>& numbers);
+inline void append(const Vector3& p, std::vector<double>& numbers) { numbers.insert(numbers.end(), p.data(), p.data() + 3); }
+
 struct ResultRow {
   SolveStatus status;
   std::string fault;  // the reason as text, unless ok
   int iterations = 0;
   double solve_us = 0.0;
-  Pose X;  // of the point that compliances are about
-  Matrix6 compliance = Matrix6::Zero(), material_compliance = Matrix6::Zero();
-  std::vector<double> more;  // one number for each of the further columns
+  std::vector<double> numbers;  // pose of the point that compliances are about, tangent and material compliance, and one
+                                // number for each of the further columns
 };
 
-// The row of a solution, which took from `start` until now. X: its pose that the compliances are about.
+// The row of a solution, without further columns, which took from `start` until now. X: its pose that the compliances are
+// about.
 template <class Model, class Solution>
 ResultRow resultRow(const Model& model, const Solution& solution, const Pose& X, std::chrono::steady_clock::time_point start) {
   ResultRow row;
@@ -51,9 +58,9 @@ ResultRow resultRow(const Model& model, const Solution& solution, const Pose& X,
   row.status = solution.status;
   if (!row.status.ok()) row.fault = model.describe(row.status);
   row.iterations = solution.iterations;
-  row.X = X;
-  row.compliance = solution.compliance;
-  row.material_compliance = solution.material_compliance;
+  append(X, row.numbers);
+  append(solution.compliance, row.numbers);
+  append(solution.material_compliance, row.numbers);
   return row;
 }
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <ctime>
-#include <iostream>
 #include <limits>
 #include <optional>
 

@@ -3,7 +3,6 @@
 
 #include <ros/ros.h>
 
-#include <cmath>
 #include <cstdio>
 #include <string>
 

@@ -25,23 +25,19 @@ struct Further {
 };
 
 std::vector<std::string> namesOf(const Further& further, int segments) {
-  const std::vector<std::string> pose{"x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"};
   std::vector<std::string> names;
   for (int k = 1; k <= segments; ++k)
     for (double fraction : further.fractions) {
       const std::string place = "s" + std::to_string(k) + "_" + numberText(fraction) + "_";
-      for (const std::string& name : pose) names.push_back(place + name);
-      for (int i = 1; i <= 6; ++i)
-        for (int j = 1; j <= 6; ++j) names.push_back(place + "material_" + std::to_string(i) + std::to_string(j));
+      addPoseColumns(place, names);
+      addMatrixColumns(place + "material_", names);
     }
   if (further.deflection)
-    for (const char* compliance : {"tangent", "material"})
-      for (const char* way : {"linear", "exponential"})
-        for (int i = 0; i < 3; ++i) names.push_back(std::string(compliance) + "_" + way + "_" + pose[i]);
+    for (const char* compliance : {"tangent_", "material_"})
+      for (const char* way : {"linear_", "exponential_"})
+        for (const char* axis : {"x_m", "y_m", "z_m"}) names.push_back(std::string(compliance) + way + axis);
   return names;
 }
-
-void append(const Vector3& p, std::vector<double>& numbers) { numbers.insert(numbers.end(), p.data(), p.data() + 3); }
 
 // Stations of the last solve in the workspace.
 void appendStations(const StiffnessModel& model, const StiffnessWorkspace& workspace, const Further& further,
@@ -49,11 +45,8 @@ void appendStations(const StiffnessModel& model, const StiffnessWorkspace& works
   for (int k = 0; k < model.scene().segmentCount(); ++k) {
     for (double fraction : further.fractions) {
       const Station station = model.station(workspace, k, fraction);
-      append(station.X_BQ.p, numbers);
-      const Eigen::Quaterniond q(station.X_BQ.R);
-      for (double value : {q.w(), q.x(), q.y(), q.z()}) numbers.push_back(value);
-      for (int i = 0; i < 6; ++i)
-        for (int j = 0; j < 6; ++j) numbers.push_back(station.compliance(i, j));
+      append(station.X_BQ, numbers);
+      append(station.compliance, numbers);
     }
   }
 }
@@ -69,15 +62,15 @@ long solveAll(const StiffnessModel& model, const Further& further, InputTable& t
     const auto start = Clock::now();
     const StiffnessSolution solution = solve(input.wrench);
     ResultRow row = resultRow(model, solution, solution.X_BT, start);
-    if (row.status.ok() && !further.fractions.empty()) appendStations(model, workspace, further, row.more);
+    if (row.status.ok() && !further.fractions.empty()) appendStations(model, workspace, further, row.numbers);
     if (row.status.ok() && further.deflection) {
       const StiffnessSolution free = solve(Wrench::Zero());
       row.status = free.status;
       if (!free.status.ok()) row.fault = model.describe(free.status);
       for (const Matrix6& C : {free.compliance, free.material_compliance}) {
         const PredictedDeflection predicted = predictDeflection(free.X_BT, C, input.wrench);
-        append(predicted.linear.p, row.more);
-        append(predicted.exponential.p, row.more);
+        append(predicted.linear.p, row.numbers);
+        append(predicted.exponential.p, row.numbers);
       }
     }
     return row;

@@ -1,6 +1,5 @@
 #include "rig/pressure_program.h"
 
-#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -50,32 +49,22 @@ double alongWalk(const std::vector<double>& levels, double periods) {
 
 }  // namespace
 
-ProgramKind programKind(const std::string& name, FaultList& faults) {
-  faults.check(kProgram, name);
-  for (size_t k = 0; k < kProgram.choices.size(); ++k)
-    if (name == kProgram.choices[k]) return static_cast<ProgramKind>(k);
-  return ProgramKind::kTriangle;
-}
-
-PressureProgram::PressureProgram(int channels, const ProgramOptions& options)
+PressureProgram::PressureProgram(int channels, const ProgramOptions& options, std::uint64_t seed)
     : channels_(channels), options_(options) {
   FaultList faults("pressure program");
   faults.check("channels", channels, {1, kMaxChannels});
   faults.checkAll(options);
   faults.throwIfAny();
-  if (options.kind != ProgramKind::kRandomWalk) return;
-  std::mt19937_64 random(options.seed);
+  if (options.kind != "random_walk") return;
+  std::mt19937_64 random(seed);
   for (int channel = 0; channel < channels; ++channel) walk_.push_back(walk(random));
 }
 
 double PressureProgram::level(int channel, double time) const {
   const double periods = time / options_.period;
-  switch (options_.kind) {
-    case ProgramKind::kTriangle: return triangle(periods, channel, channels_);
-    case ProgramKind::kStaircase: return staircase(periods, channel, channels_);
-    case ProgramKind::kRandomWalk: return alongWalk(walk_[channel], periods);
-  }
-  return 0.0;
+  if (options_.kind == "triangle") return triangle(periods, channel, channels_);
+  if (options_.kind == "staircase") return staircase(periods, channel, channels_);
+  return alongWalk(walk_[channel], periods);
 }
 
 Pressures PressureProgram::at(double time) const {

@@ -9,23 +9,17 @@
 
 namespace live_stiffness {
 
-enum class ProgramKind {
-  kTriangle,    // each channel up to the amplitude and down again once a period, one after the other by 1/channels
-  kStaircase,   // one channel at a time: thirds of the amplitude, each held for a period, then one period of rest
-  kRandomWalk,  // each channel on its own: a new level every period, at most half the amplitude from the last one
-};
-
-// The kind of this name in kProgram, whose choices stand in the order of the kinds. Adds a fault for any other name.
-ProgramKind programKind(const std::string& name, FaultList& faults);
-
 struct ProgramOptions {
-  ProgramKind kind = ProgramKind::kTriangle;
+  // triangle: each channel up to the amplitude and down again once a period, one after the other by 1/channels.
+  // staircase: one channel at a time: thirds of the amplitude, each held for a period, then one period of rest.
+  // random_walk: each channel on its own: a new level every period, at most half the amplitude from the last one.
+  std::string kind = kProgram.standard;
   double amplitude = kAmplitude.standard;  // highest commanded pressure, Pa gauge
   double period = kPeriod.standard;        // s
-  std::uint64_t seed = 1;                  // of the random walk
 
   template <class Options, class Visit>
   static void forEachParameter(Options& options, Visit&& visit) {
+    visit(kProgram, options.kind);
     visit(kAmplitude, options.amplitude);
     visit(kPeriod, options.period);
   }
@@ -37,8 +31,8 @@ struct ProgramOptions {
 // corners.
 class PressureProgram {
  public:
-  // channels: 1 to 1024. Throws ConfigurationError with every fault.
-  PressureProgram(int channels, const ProgramOptions& options);
+  // channels: 1 to 1024; seed: of the random walk. Throws ConfigurationError with every fault.
+  PressureProgram(int channels, const ProgramOptions& options, std::uint64_t seed);
 
   // Commanded gauge pressures (Pa, one per channel) at a time (s, finite).
   Pressures at(double time) const;

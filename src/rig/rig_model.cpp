@@ -1,8 +1,8 @@
 #include "rig/rig_model.h"
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 #include "live_stiffness/checks.h"
@@ -13,13 +13,6 @@ namespace {
 constexpr int kErrorComponents = 3;
 constexpr double kSlowestError = 60.0;  // s, period of the slowest of them
 
-std::vector<int> channelsOrOnePerChamber(const Scene& scene, const RigOptions& options) {
-  if (!options.channel_of_chamber.empty()) return options.channel_of_chamber;
-  std::vector<int> identity(scene.chamberCount());
-  for (size_t k = 0; k < identity.size(); ++k) identity[k] = static_cast<int>(k);
-  return identity;
-}
-
 void checkPose(const std::string& name, const Pose& X, FaultList& faults) {
   constexpr double kOrthonormal = 1e-6;
   if (!X.p.allFinite()) faults.add(name + ".position_m: must be finite");
@@ -28,22 +21,21 @@ void checkPose(const std::string& name, const Pose& X, FaultList& faults) {
   if (!is_rotation) faults.add(name + ": its orientation must be a rotation");
 }
 
-void checkNumbers(const RigOptions& options, FaultList& faults) {
+// The map, after a look at everything, so that all faults come out together.
+ChannelMap checkedChannelMap(const Scene& scene, const RigOptions& options) {
+  FaultList faults("rig");
   faults.checkAll(options);
   faults.check("tracker_delay_s", options.registration.tracker_delay, {0.0, Registration::kLargestDelay});
   checkPose("base_in_tracker", options.registration.X_AB, faults);
   checkPose("sensor_on_tip", options.registration.X_TS, faults);
-  if (!options.tip_wrench.allFinite()) faults.add("tip_wrench: must be finite");
   options.contact.check(faults);
-}
-
-// The map, after a look at everything, so that all faults come out together.
-ChannelMap checkedChannelMap(const Scene& scene, const RigOptions& options) {
-  FaultList faults("rig");
-  checkNumbers(options, faults);
   if (scene.segmentCount() == 0) faults.add("chain: must hold at least one segment");
   if (scene.chamberCount() == 0) faults.add("chain: must hold at least one chamber");
-  const std::vector<int> channels = channelsOrOnePerChamber(scene, options);
+  std::vector<int> channels = options.channel_of_chamber;
+  if (channels.empty()) {
+    channels.resize(scene.chamberCount());
+    std::iota(channels.begin(), channels.end(), 0);
+  }
   if (static_cast<int>(channels.size()) != scene.chamberCount())
     faults.add("channel_of_chamber has " + std::to_string(channels.size()) + " entries: must be " +
                std::to_string(scene.chamberCount()) + ", one per chamber");
@@ -68,18 +60,13 @@ Vector3 whiteNoise(std::mt19937_64& random, double rms_magnitude) {
   return rms_magnitude / std::sqrt(3.0) * Vector3(x, y, z);
 }
 
-ProgramOptions seeded(ProgramOptions program, std::mt19937_64& random) {
-  program.seed = random();
-  return program;
-}
-
 }  // namespace
 
 RigModel::RigModel(Scene scene, const RigOptions& options)
     : options_(options),
       channel_map_(checkedChannelMap(scene, options)),
       random_(options.seed),
-      program_(channel_map_.channelCount(), seeded(options.program, random_)),
+      program_(channel_map_.channelCount(), options.program, random_()),
       robot_(std::move(scene)),
       regulator_(channel_map_.channelCount(), options.regulator_time_constant),
       creep_(channel_map_.chamberCount(), options.creep_time_constant) {
@@ -129,7 +116,7 @@ RigSample RigModel::step(double time) {
   sample.effective_chambers = (1.0 - options_.creep_fraction) * sample.actual_chambers +
                               options_.creep_fraction * creep_.update(sample.actual_chambers, elapsed);
   sample.contact_wrench = options_.contact.at(time);
-  const std::optional<Pose> X_BT = robot_.solve(sample.effective_chambers, options_.tip_wrench + sample.contact_wrench);
+  const std::optional<Pose> X_BT = robot_.solve(sample.effective_chambers, sample.contact_wrench);
   if (!X_BT) throw std::runtime_error("the simulated robot finds no equilibrium at " + numberText(time) + " s");
   sample.X_BT = *X_BT;
   history_.add({time, sample.effective_chambers, sample.X_BT});

@@ -3,11 +3,12 @@
 //
 //   command --lag--> measured --+ slow error--> actual --creep--> effective --FineRobot--> X_BT --tracker--> X_AS
 //                                                                               |
-//                                                              tip_wrench + contact
+//                                                                            contact
 //
 // The regulator holds its own reading on the command after a lag, so its reading is what a driver publishes
 // (`measured`); the slow error is that of its sensor, and only the robot feels it.
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <random>
@@ -17,7 +18,6 @@
 #include "live_stiffness/estimation/registration.h"
 #include "rig/contact.h"
 #include "rig/fine_robot.h"
-#include "rig/first_order_lag.h"
 #include "rig/pressure_program.h"
 #include "live_stiffness/section/channel_map.h"
 
@@ -25,7 +25,7 @@ namespace live_stiffness {
 
 struct RigOptions {
   std::vector<int> channel_of_chamber;  // see ChannelMap; empty: one channel per chamber
-  ProgramOptions program;               // its seed is replaced by one drawn from `seed`
+  ProgramOptions program;
   std::uint64_t seed = static_cast<std::uint64_t>(kSeed.standard);  // of everything random here
 
   double regulator_time_constant = kRegulatorTimeConstant.standard;  // s
@@ -46,10 +46,9 @@ struct RigOptions {
   double drop_out_probability = kDropOutProbability.standard;  // per tracker sample outside of a drop-out, that one starts
   double drop_out_duration = kDropOutDuration.standard;        // s
 
-  Wrench tip_wrench = Wrench::Zero();  // dead wrench at T, base axes, N and N m; finite
-  Contact contact;                     // what pushes the tip beside it now and then
+  Contact contact;  // what pushes the tip now and then
 
-  // Of all but the wrenches and the registration.
+  // Of all but the wrench and the registration.
   template <class Options, class Visit>
   static void forEachParameter(Options& options, Visit&& visit) {
     ProgramOptions::forEachParameter(options.program, visit);
@@ -82,6 +81,30 @@ struct RigSample {
   Wrench sensedContact() const { return wrenchAdjoint({X_BT.R.transpose(), Vector3::Zero()}) * contact_wrench; }
 };
 
+// First-order lag y' = (u - y) / tau of a vector, exact for an input that is linear between updates.
+class FirstOrderLag {
+ public:
+  // time_constant: tau, s; 0 lets the input through. Input and output start at zero.
+  FirstOrderLag(int size, double time_constant)
+      : time_constant_(time_constant), input_(Pressures::Zero(size)), output_(Pressures::Zero(size)) {}
+
+  // Goes on by `step` (s, not negative) to an input that has moved linearly since the last update.
+  const Pressures& update(const Pressures& input, double step) {
+    if (time_constant_ <= 0.0) {
+      output_ = input;
+    } else if (step > 0.0) {
+      const Pressures lead = (time_constant_ / step) * (input - input_);  // tau u', how far y trails a ramp
+      output_ = input - lead + std::exp(-step / time_constant_) * (output_ - input_ + lead);
+    }
+    input_ = input;
+    return output_;
+  }
+
+ private:
+  double time_constant_;
+  Pressures input_, output_;
+};
+
 class RigModel {
  public:
   // Throws ConfigurationError with every fault: options out of range, a channel map that does not fit the scene, a
@@ -91,7 +114,7 @@ class RigModel {
   // Takes the rig from the last time to `time` (s) and returns what is seen there. The first call starts from rest at
   // time 0. Equal seeds and equal times give equal samples. Between two calls the command counts as linear, so steps
   // of at most a tenth of the program's period keep its shape. Throws std::invalid_argument if time is not finite,
-  // negative or goes backwards, std::runtime_error if the robot finds no equilibrium (buckled under its wrenches).
+  // negative or goes backwards, std::runtime_error if the robot finds no equilibrium (buckled under the pusher).
   RigSample step(double time);
 
  private:

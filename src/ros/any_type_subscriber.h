@@ -5,7 +5,6 @@
 #include <ros/node_handle.h>
 #include <topic_tools/shape_shifter.h>
 
-#include <functional>
 #include <string>
 
 namespace live_stiffness {

@@ -31,15 +31,23 @@ constexpr char kForceSensorFrame[] = "tip_force_sensor";
 
 // Unit and reference of a rig's pressures.
 struct PressureFormat {
-  double unit = 1.0;  // Pa per unit of the message
-  bool absolute = false;
+  std::string unit = kPressureUnit.standard, reference = kPressureReference.standard;
   double atmosphere = kAtmosphericPressure.standard;  // subtracted from absolute ones, Pa
 
+  template <class Format, class Visit>
+  static void forEachParameter(Format& format, Visit&& visit) {
+    visit(kPressureUnit, format.unit);
+    visit(kPressureReference, format.reference);
+    visit(kAtmosphericPressure, format.atmosphere);
+  }
+  bool isAbsolute() const { return reference == "absolute"; }
   double gauge(double value) const;  // Pa
 };
 
 // Pa per unit for Pa, kPa, bar, mbar, psi; 0 for any other name.
 double pascalsPerUnit(const std::string& unit);
+// m per unit for m, mm.
+inline double metresPerUnit(const std::string& unit) { return unit == "mm" ? 1e-3 : 1.0; }
 
 // Gauge pressures (Pa) of all channels from ChamberPressures, std_msgs/Float64MultiArray or Float32MultiArray.
 // Errors: another type, a damaged message, a value that is not finite, a negative absolute pressure.
@@ -104,8 +112,7 @@ void fillRegistration(const LiveRegistration& result, Register::Response& respon
 // A 6x6 matrix, row by row.
 template <class Array>
 void copyRowByRow(const Matrix6& matrix, Array& array) {
-  for (int i = 0; i < 6; ++i)
-    for (int j = 0; j < 6; ++j) array[6 * i + j] = matrix(i, j);
+  Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(array.data()) = matrix;
 }
 
 // Fills what the estimates of all robots (StiffnessEstimate, PlatformEstimate) share. translation: their ellipsoid.

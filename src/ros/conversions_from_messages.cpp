@@ -77,7 +77,7 @@ class ArrayBytes {
 
 std::string pressureError(double value, const PressureFormat& format) {
   if (!std::isfinite(value)) return "is " + numberText(value) + ": must be finite";
-  if (format.absolute && value < 0.0)
+  if (format.isAbsolute() && value < 0.0)
     return "is " + numberText(value) + ": an absolute pressure must not be negative; is it gauge? "
            "(set ~pressure_reference: gauge)";
   constexpr double kLargest = 1e8;  // Pa; a glitch beyond would stay in the model of creep for long
@@ -117,9 +117,16 @@ Parsed<Eigen::VectorXd> readArray(const topic_tools::ShapeShifter& message) {
   return parsed;
 }
 
-Parsed<TrackedPose> checkedPose(const std_msgs::Header& header, const geometry_msgs::Point& p,
-                                const geometry_msgs::Quaternion& q, double position_unit) {
-  const Vector3 position(p.x, p.y, p.z);
+// Of a geometry_msgs/Point or Vector3.
+template <class Xyz>
+Vector3 fromXyz(const Xyz& message) {
+  return {message.x, message.y, message.z};
+}
+
+template <class Xyz>
+Parsed<TrackedPose> checkedPose(const std_msgs::Header& header, const Xyz& p, const geometry_msgs::Quaternion& q,
+                                double position_unit) {
+  const Vector3 position = fromXyz(p);
   const Eigen::Quaterniond rotation(q.w, q.x, q.y, q.z);
   if (!position.allFinite() || !rotation.coeffs().allFinite())
     return failed<TrackedPose>("pose is not finite: the tracker does not see its sensor");
@@ -147,7 +154,9 @@ double pascalsPerUnit(const std::string& unit) {
   return 0.0;
 }
 
-double PressureFormat::gauge(double value) const { return value * unit - (absolute ? atmosphere : 0.0); }
+double PressureFormat::gauge(double value) const {
+  return value * pascalsPerUnit(unit) - (isAbsolute() ? atmosphere : 0.0);
+}
 
 Parsed<Pressures> readPressures(const topic_tools::ShapeShifter& message, const PressureFormat& format) {
   Parsed<Pressures> pressures = readArray<ChamberPressures>(message);
@@ -196,11 +205,7 @@ Parsed<TrackedPose> readPose(const topic_tools::ShapeShifter& message, double po
 }
 
 Parsed<TrackedPose> readPose(const geometry_msgs::TransformStamped& message, double position_unit) {
-  geometry_msgs::Point position;
-  position.x = message.transform.translation.x;
-  position.y = message.transform.translation.y;
-  position.z = message.transform.translation.z;
-  return checkedPose(message.header, position, message.transform.rotation, position_unit);
+  return checkedPose(message.header, message.transform.translation, message.transform.rotation, position_unit);
 }
 
 Parsed<Pose> readPose(const geometry_msgs::Pose& message) {
@@ -222,8 +227,7 @@ Parsed<Matrix3> readAxes(const std::string& frame, const FrameNames& frames, con
 Parsed<Wrench> readWrench(const geometry_msgs::WrenchStamped& message, const FrameNames& frames, const Pose* X_BT) {
   Parsed<Wrench> parsed;
   parsed.stamp = message.header.stamp;
-  const geometry_msgs::Vector3 &f = message.wrench.force, &m = message.wrench.torque;
-  parsed.value << f.x, f.y, f.z, m.x, m.y, m.z;
+  parsed.value << fromXyz(message.wrench.force), fromXyz(message.wrench.torque);
   if (!parsed.value.allFinite()) return failed<Wrench>("wrench is not finite: six finite numbers, N and N m");
   const Parsed<Matrix3> axes = readAxes(message.header.frame_id, frames, X_BT);
   parsed.error = axes.error;
@@ -232,7 +236,7 @@ Parsed<Wrench> readWrench(const geometry_msgs::WrenchStamped& message, const Fra
 }
 
 Parsed<Vector3> readVector(const geometry_msgs::Vector3& message, const std::string& name) {
-  const Vector3 value(message.x, message.y, message.z);
+  const Vector3 value = fromXyz(message);
   if (!value.allFinite())
     return failed<Vector3>(name + " = [" + numberText(value.x()) + ", " + numberText(value.y()) + ", " +
                            numberText(value.z()) + "]: must be three finite numbers");

@@ -1,31 +1,19 @@
 // Commands to a running StiffnessNode: ~reset, ~pause, ~reload and dynamic_reconfigure.
 
-#include <dynamic_reconfigure/server.h>
-#include <live_stiffness/StiffnessConfig.h>
-
 #include "ros/stiffness_node.h"
 
 namespace live_stiffness {
 
-struct StiffnessNode::Reconfiguration {
-  Reconfiguration(StiffnessNode& node, const ros::NodeHandle& private_node) : node(node), server(mutex, private_node) {
-    server.getConfigDefault(config);
-    config.__fromServer__(private_node);  // the parameters were loaded from there
-    server.setCallback([this](StiffnessConfig& wanted, uint32_t level) { onChange(wanted, level); });
-  }
-  void onChange(StiffnessConfig& wanted, uint32_t level);
-
-  StiffnessNode& node;
-  StiffnessConfig config;  // the present one
-  boost::recursive_mutex mutex;  // ours: with its own, updateConfig() warns of deadlocks
-  dynamic_reconfigure::Server<StiffnessConfig> server;
-};
-
-void StiffnessNode::addCommands() {
+void StiffnessNode::addServices() {
   servers_ = {private_node_.advertiseService("reset", &StiffnessNode::reset, this),
               private_node_.advertiseService("pause", &StiffnessNode::pause, this),
-              private_node_.advertiseService("reload", &StiffnessNode::reload, this)};
-  reconfiguration_ = std::make_shared<Reconfiguration>(*this, private_node_);
+              private_node_.advertiseService("reload", &StiffnessNode::reload, this),
+              private_node_.advertiseService("predict_deflection", &StiffnessNode::predictDeflection, this),
+              private_node_.advertiseService("compliance_at", &StiffnessNode::complianceAt, this),
+              private_node_.advertiseService("directional_stiffness", &StiffnessNode::directionalStiffness, this)};
+  config_server_.getConfigDefault(config_);
+  config_.__fromServer__(private_node_);  // the parameters were loaded from there
+  config_server_.setCallback([this](StiffnessConfig& wanted, uint32_t level) { reconfigure(wanted, level); });
 }
 
 void StiffnessNode::setParameters(const NodeParameters& parameters, bool keeps_inputs) {
@@ -74,8 +62,8 @@ bool StiffnessNode::reload(std_srvs::Trigger::Request&, std_srvs::Trigger::Respo
     parameters.contact = read.contact;
     setParameters(parameters, true);
     registration_.restart(snapshot().model);
-    reconfiguration_->config.__fromServer__(private_node_);
-    reconfiguration_->server.updateConfig(reconfiguration_->config);
+    config_.__fromServer__(private_node_);
+    config_server_.updateConfig(config_);
     response.success = true;
     response.message = "loaded: " + std::to_string(parameters.scene.segmentCount()) + " segment(s), " +
                        std::to_string(parameters.scene.chamberCount()) + " chamber(s)";
@@ -87,21 +75,21 @@ bool StiffnessNode::reload(std_srvs::Trigger::Request&, std_srvs::Trigger::Respo
   return true;
 }
 
-void StiffnessNode::Reconfiguration::onChange(StiffnessConfig& wanted, uint32_t level) {
+void StiffnessNode::reconfigure(StiffnessConfig& wanted, uint32_t level) {
   if (level == ~0u) return;  // the first call: what was loaded at start
   NodeParameters parameters;
   try {
-    parameters = reconfigured(node.parameters_, wanted);
-    if (level & (Live::kContact | Live::kRobot)) node.setParameters(parameters, true);
-    if (level & Live::kRobot) node.registration_.restart(node.snapshot().model);
+    parameters = reconfigured(parameters_, wanted);
+    if (level & (Live::kContact | Live::kRobot)) setParameters(parameters, true);
+    if (level & Live::kRobot) registration_.restart(snapshot().model);
   } catch (const ConfigurationError& error) {
     ROS_ERROR_STREAM("reconfigure: kept what was set before: " << oneLine(error.faults()));
-    wanted = config;
+    wanted = config_;
     return;
   }
-  const std::scoped_lock lock(node.tracking_mutex_, node.estimation_mutex_);
-  node.parameters_ = parameters;
-  config = wanted;
+  const std::scoped_lock lock(tracking_mutex_, estimation_mutex_);
+  parameters_ = parameters;
+  config_ = wanted;
 }
 
 }  // namespace live_stiffness

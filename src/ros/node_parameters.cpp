@@ -10,11 +10,6 @@
 namespace live_stiffness {
 namespace {
 
-void setModelByName(NodeParameters& p, FaultList& faults) {
-  if (!kModel.has(p.model_name) || !kStepping.has(p.stepping_name)) return;  // told already
-  p.model = namedModelOptions(p.model_name, p.stepping_name, faults, p.model);
-}
-
 void checkTopics(const std::vector<std::string>& topics, FaultList& faults) {
   for (const std::string& topic : topics) {
     std::string reason;
@@ -34,10 +29,8 @@ void checkChannels(const NodeParameters& p, FaultList& faults) {
 void complete(NodeParameters& p, FaultList& faults) {
   faults.checkAll(p);
   p.contact.checkComponents(faults);
-  setModelByName(p, faults);
-  p.pressure_format.unit = pascalsPerUnit(p.pressure_unit);
-  p.pressure_format.absolute = p.pressure_reference == "absolute";
-  p.position_unit = p.position_unit_name == "mm" ? 1e-3 : 1.0;
+  if (kModel.has(p.model_name) && kStepping.has(p.stepping_name))  // else told already
+    p.model = namedModelOptions(p.model_name, p.stepping_name, faults, p.model);
   p.style.frame = p.frames.base;
   checkTopics(p.pressure_topics, faults);
   checkFrames(p.frames, kTipFrame, faults);

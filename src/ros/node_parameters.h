@@ -12,7 +12,6 @@
 #include "live_stiffness/estimation/tip_wrench_estimator.h"
 #include "ros/conversions.h"
 #include "ros/marker_shapes.h"
-#include "live_stiffness/section/channel_map.h"
 
 namespace live_stiffness {
 
@@ -31,14 +30,12 @@ struct NodeParameters {
   EstimatorOptions estimator;
   double heartbeat = kHeartbeat.standard;  // Hz
 
-  std::string pressure_unit = kPressureUnit.standard, pressure_reference = kPressureReference.standard;
-  PressureFormat pressure_format;            // by these names
+  PressureFormat pressure_format;
   std::vector<std::string> pressure_topics;  // one sensor_msgs/FluidPressure topic per channel; empty: one topic
   std::vector<int> channel_of_chamber;       // empty: one channel per chamber
   double pressure_timeout = kPressureTimeout.standard;  // s
 
-  std::string position_unit_name = kPositionUnit.standard;
-  double position_unit = 1.0;                                // m per unit of the tracker's positions, by that name
+  std::string position_unit = kPositionUnit.standard;        // of the tracker's positions
   std::string tracker_frame = kTrackerFrame.standard;        // A
   std::string sensor_frame = kSensorFrame.standard;          // the tracker's name of the sensor, also accepted as frame_id
   std::string tracker_tf_frame = kTrackerTfFrame.standard;   // look it up in tf instead of a topic; empty: topic
@@ -66,13 +63,11 @@ struct NodeParameters {
     ModelOptions::forEachParameter(p.model, visit);
     EstimatorOptions::forEachParameter(p.estimator, visit);
     visit(kHeartbeat, p.heartbeat);
-    visit(kPressureUnit, p.pressure_unit);
-    visit(kPressureReference, p.pressure_reference);
-    visit(kAtmosphericPressure, p.pressure_format.atmosphere);
+    PressureFormat::forEachParameter(p.pressure_format, visit);
     visit(kPressureTopics, p.pressure_topics);
     visit(kChannelOfChamber, p.channel_of_chamber);
     visit(kPressureTimeout, p.pressure_timeout);
-    visit(kPositionUnit, p.position_unit_name);
+    visit(kPositionUnit, p.position_unit);
     visit(kTrackerFrame, p.tracker_frame);
     visit(kSensorFrame, p.sensor_frame);
     visit(kTrackerTfFrame, p.tracker_tf_frame);

@@ -22,7 +22,6 @@ class MasterCheck {
     timer_ = node.createWallTimer(ros::WallDuration(1.0), &MasterCheck::onTimer, this);
     spinner_.start();
   }
-  MasterCheck(const MasterCheck&) = delete;  // the callback refers to it
 
   // True if the process ends because the master cannot be reached.
   bool hasShutDown() const { return shuts_down_ && is_lost_; }

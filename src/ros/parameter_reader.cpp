@@ -24,18 +24,6 @@ bool ParameterReader::convert(XmlRpcValue& value, int& number) {
   return true;
 }
 
-bool ParameterReader::convert(XmlRpcValue& value, bool& truth) {
-  if (value.getType() != XmlRpcValue::TypeBoolean) return false;
-  truth = static_cast<bool>(value);
-  return true;
-}
-
-bool ParameterReader::convert(XmlRpcValue& value, std::string& text) {
-  if (value.getType() != XmlRpcValue::TypeString) return false;
-  text = static_cast<std::string>(value);
-  return true;
-}
-
 void ParameterReader::warnOfUnknown(const std::string& node) const {
   if (values_.getType() != XmlRpcValue::TypeStruct) return;
   for (const auto& entry : values_)

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "live_stiffness/parameters.h"
@@ -42,11 +43,10 @@ class ParameterReader {
     read(parameter.key, "a text", value);
     value = withoutSlash(value);
   }
-  void operator()(const NumbersParameter& parameter, std::vector<double>& values) {
-    read(parameter.key, "a list of numbers, each " + parameter.range.text(), values);
-  }
-  void operator()(const NumbersParameter& parameter, std::vector<int>& values) {
-    read(parameter.key, "a list of whole numbers, each " + parameter.range.text(), values);
+  template <class Number>
+  void operator()(const NumbersParameter& parameter, std::vector<Number>& values) {
+    const std::string numbers = std::is_integral_v<Number> ? "whole numbers" : "numbers";
+    read(parameter.key, "a list of " + numbers + ", each " + parameter.range.text(), values);
   }
   void operator()(const TextsParameter& parameter, std::vector<std::string>& values) {
     read(parameter.key, "a list of texts", values);
@@ -74,7 +74,7 @@ class ParameterReader {
   template <class Field>
   bool read(const char* key, const std::string& wanted, Field& field) {
     asked_.insert(key);
-    if (values_.getType() != XmlRpc::XmlRpcValue::TypeStruct || !values_.hasMember(key)) return false;
+    if (!values_.hasMember(key)) return false;
     Field found;
     const bool is_good = convert(values_[key], found);
     if (is_good) field = found;
@@ -83,8 +83,13 @@ class ParameterReader {
   }
   static bool convert(XmlRpc::XmlRpcValue& value, double& number);
   static bool convert(XmlRpc::XmlRpcValue& value, int& number);
-  static bool convert(XmlRpc::XmlRpcValue& value, bool& truth);
-  static bool convert(XmlRpc::XmlRpcValue& value, std::string& text);
+  template <class Field>  // bool or std::string
+  static bool convert(XmlRpc::XmlRpcValue& value, Field& field) {
+    constexpr bool is_bool = std::is_same_v<Field, bool>;
+    if (value.getType() != (is_bool ? XmlRpc::XmlRpcValue::TypeBoolean : XmlRpc::XmlRpcValue::TypeString)) return false;
+    field = static_cast<Field&>(value);
+    return true;
+  }
   template <class Element>
   static bool convert(XmlRpc::XmlRpcValue& value, std::vector<Element>& list) {
     if (value.getType() != XmlRpc::XmlRpcValue::TypeArray) return false;

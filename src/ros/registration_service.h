@@ -25,7 +25,6 @@ class RegistrationService {
   // registration to use. parameters must outlive this. Requests may come in another thread than pressures and poses.
   RegistrationService(ros::NodeHandle private_node, std::shared_ptr<const StiffnessModel> model,
                       const NodeParameters& parameters, OnApply on_apply);
-  RegistrationService(const RegistrationService&) = delete;  // callbacks refer to it
 
   // As in RegistrationBuffer. time: s, on the clock of the pressures. Pressures come from one thread, which never waits here.
   void addPressures(PressuresRef pressures, const ros::Time& stamp);

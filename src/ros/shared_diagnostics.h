@@ -1,8 +1,8 @@
 #pragma once
-// Entries of diagnostics that both nodes have: clock and solver.
+// Diagnostics of both nodes: their updater and entries for clock and solver.
 
-#include <diagnostic_updater/DiagnosticStatusWrapper.h>
-#include <ros/time.h>
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
 
 #include <string>
 
@@ -10,11 +10,18 @@
 
 namespace live_stiffness {
 
-// Status of ROS time: simulated time that has not begun, stands still or jumped back.
-class ClockStatus {
+// Publishes diagnostics, with an entry for ROS time: simulated time that has not begun, stands still or jumped back.
+class NodeDiagnostics : public diagnostic_updater::Updater {
  public:
-  // Call it from a wall timer: while ROS time stands still, no ros::Timer fires.
-  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  NodeDiagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node) : Updater(node, private_node) {
+    setHardwareID("live_stiffness");
+    add("Clock", this, &NodeDiagnostics::diagnoseClock);
+    // Not update(), which waits for ROS time: that may stand still or jump back (findings/diagnostics_after_a_jump_of_time.sh).
+    timer_ = node.createWallTimer(ros::WallDuration(getPeriod()), [this](const ros::WallTimerEvent&) { force_update(); });
+  }
+
+ private:
+  void diagnoseClock(diagnostic_updater::DiagnosticStatusWrapper& status) {
     using diagnostic_msgs::DiagnosticStatus;
     const ros::WallDuration shown(2.0), longest(0.5);
     const double jump = -0.5;  // smaller jumps are corrections of the wall clock
@@ -30,9 +37,9 @@ class ClockStatus {
     status.add("simulated", !ros::Time::isSystemTime());
   }
 
- private:
   ros::Time last_;                // at the last call
   ros::WallTime jumped_, moved_;  // when it jumped back, and when it was last seen to advance
+  ros::WallTimer timer_;
 };
 
 // Status of the solver. estimator: StiffnessEstimator or ParallelEstimator. wrench_error: what is wrong with the known wrench,

@@ -33,17 +33,17 @@ StiffnessNode::StiffnessNode(const ros::NodeHandle& node, const ros::NodeHandle&
       pose_output_(private_node_, "tip_pose", parameters_.frames),
       tracker_input_(onQueue(node, &tracking_queue_), parameters_),
       contact_(private_node_, parameters_),
-      services_(private_node_, parameters_.frames, [this] { return snapshot(); }),
       registration_(private_node_, model(), parameters_, [this](const Registration& registration) {
         const Lock lock(tracking_mutex_);
         parameters_.registration = registration;
         contact_.reset();
-      }) {
+      }),
+      diagnostics_(node_, private_node_) {
   if (parameters_.tip_handle.enabled)
     tip_handle_ = std::make_unique<TipHandle>(private_node_, parameters_.style, parameters_.tip_handle,
                                               marker_publisher_, [this] { return snapshot(); });
   addDiagnostics();
-  addCommands();
+  addServices();
   subscribe(node);
   ROS_INFO("%s, stepping %s, %d segment(s), %d chamber(s) on %d channel(s)", modelName(parameters_.model).c_str(),
            steppingName(parameters_.model.stepping).c_str(), parameters_.scene.segmentCount(),
@@ -135,8 +135,10 @@ void StiffnessNode::publishEstimate() {
             "pressures", *message);
   if (is_paused_) message->status = static_cast<uint8_t>(estimator_->status().code);
   estimate_publisher_.publish(message);  // shared: no copy for subscribers in this process
-  countPublished(message->stale);
-  if (!message->stale) pose_output_.publish(estimate.solution.X_BT, estimate_stamp_);
+  frequency_.tick();
+  if (message->stale) return;
+  time_stamps_.tick(estimate_stamp_);
+  pose_output_.publish(estimate.solution.X_BT, estimate_stamp_);
 }
 
 EstimateSnapshot StiffnessNode::snapshot() {

@@ -6,6 +6,12 @@
 // contact, under tracking_mutex_. Everything else (markers, handle, services, diagnostics) runs in the thread that spins
 // the global callback queue, and holds a mutex only while it copies. Order of locking: tracking, estimation.
 
+#include <diagnostic_updater/update_functions.h>
+#include <dynamic_reconfigure/server.h>
+#include <live_stiffness/ComplianceAt.h>
+#include <live_stiffness/DirectionalStiffness.h>
+#include <live_stiffness/PredictDeflection.h>
+#include <live_stiffness/StiffnessConfig.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <std_srvs/SetBool.h>
@@ -23,7 +29,7 @@
 #include "ros/pose_output.h"
 #include "ros/pressure_input.h"
 #include "ros/registration_service.h"
-#include "ros/stiffness_services.h"
+#include "ros/shared_diagnostics.h"
 #include "ros/tracker_input.h"
 #include "ros/wrench_input.h"
 
@@ -41,9 +47,6 @@ class StiffnessNode {
  private:
   using Lock = std::lock_guard<std::mutex>;
 
-  struct Diagnostics;
-  struct Reconfiguration;
-
   void subscribe(const ros::NodeHandle& node);
   void addDiagnostics();
 
@@ -56,7 +59,6 @@ class StiffnessNode {
   void estimate(const Parsed<Pressures>& pressures);
   void onSolved(StiffnessEstimator::Outcome outcome);
   void publishEstimate();
-  void countPublished(bool is_stale);  // for diagnostics
   // Why the estimate does not belong to the newest pressures; empty if it does.
   std::string newestError() const;
   bool isStale() const { return !newestError().empty() || pressure_input_.status().isStale(); }
@@ -72,10 +74,19 @@ class StiffnessNode {
   // In the thread of the global callback queue.
   EstimateSnapshot snapshot();  // locks estimation_mutex_
   void onMarkers(const ros::WallTimerEvent&);
-  void addCommands();
+  void addServices();
+  // All services return true; a request that cannot be fulfilled gets success = false.
   bool reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
   bool pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   bool reload(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
+  bool predictDeflection(PredictDeflection::Request& request, PredictDeflection::Response& response);
+  bool complianceAt(ComplianceAt::Request& request, ComplianceAt::Response& response);
+  bool directionalStiffness(DirectionalStiffness::Request& request, DirectionalStiffness::Response& response);
+  // Fills what the last three answers share. answer: fills the rest for the newest estimate; returns why it cannot, empty if
+  // it can.
+  template <class Response, class Answer>
+  bool reply(Response& response, Answer answer);
+  void reconfigure(StiffnessConfig& wanted, uint32_t level);
   // Makes estimators with these parameters and stores them. Throws ConfigurationError, and then nothing has changed.
   void setParameters(const NodeParameters& parameters, bool keeps_inputs);
 
@@ -100,11 +111,19 @@ class StiffnessNode {
   ContactOutput contact_;
   double tracking_error_ = 0.0;  // newest distance, m
 
-  StiffnessServices services_;
+  ModelWorkspace solver_;  // of the services
   RegistrationService registration_;
   std::unique_ptr<TipHandle> tip_handle_;  // none unless enabled
-  std::shared_ptr<Diagnostics> diagnostics_;
-  std::shared_ptr<Reconfiguration> reconfiguration_;
+
+  double highest_rate_ = 1e5;  // of estimates, Hz
+  diagnostic_updater::FrequencyStatus frequency_{{&parameters_.heartbeat, &highest_rate_}, "Estimates"};
+  // Of pressures when their estimate is published: at most 0.1 s ahead, at most 1 s behind.
+  diagnostic_updater::TimeStampStatus time_stamps_{{-0.1, 1.0}, "Time stamps"};
+  NodeDiagnostics diagnostics_;  // after these, which it reads
+
+  StiffnessConfig config_;               // the present one
+  boost::recursive_mutex config_mutex_;  // ours: with its own, updateConfig() warns of deadlocks
+  dynamic_reconfigure::Server<StiffnessConfig> config_server_{config_mutex_, private_node_};
 
   // Last, so that no callback runs before the rest exists; and the spinners stop first.
   AnyTypeSubscriber pressure_subscriber_, pose_subscriber_;

@@ -15,14 +15,11 @@ using visualization_msgs::InteractiveMarkerFeedback;
 
 constexpr char kOtherShape[] = "no ghost: the robot is in another stable shape than the one it takes from rest";
 
-const char* titleOf(TipHandle::Question question) {
-  switch (question) {
-    case TipHandle::Question::kForceAtPosition: return "Drag the tip: force that holds it at the position";
-    case TipHandle::Question::kWrenchAtPose: return "Drag the tip: wrench that holds it at the pose";
-    case TipHandle::Question::kDeflectionUnderWrench: return "Apply a wrench: deflection";
-  }
-  return "";
-}
+constexpr char kName[] = "tip";  // of the interactive marker
+
+// Of the questions, in their order.
+constexpr const char* kTitles[] = {"Drag the tip: force that holds it at the position",
+                                   "Drag the tip: wrench that holds it at the pose", "Apply a wrench: deflection"};
 
 std::string wrenchText(const Wrench& wrench) {
   char text[120];
@@ -55,8 +52,6 @@ InteractiveMarkerControl axisControl(const Vector3& axis, uint8_t mode, const st
 
 }  // namespace
 
-constexpr char TipHandle::kName[];
-
 TipHandle::TipHandle(const ros::NodeHandle& private_node, const MarkerStyle& style,
                      const TipHandleOptions& options, const ros::Publisher& markers, GetSnapshot get_snapshot)
     : style_(style),
@@ -68,10 +63,10 @@ TipHandle::TipHandle(const ros::NodeHandle& private_node, const MarkerStyle& sty
 }
 
 void TipHandle::fillMenu() {
-  for (Question question :
-       {Question::kForceAtPosition, Question::kWrenchAtPose, Question::kDeflectionUnderWrench})
-    entries_.push_back(menu_.insert(
-        titleOf(question), [this, question](const InteractiveMarkerFeedback::ConstPtr&) { choose(question); }));
+  for (const char* title : kTitles) {
+    const auto question = static_cast<Question>(entries_.size());
+    entries_.push_back(menu_.insert(title, [this, question](const InteractiveMarkerFeedback::ConstPtr&) { choose(question); }));
+  }
   menu_.insert("Let go", [this](const InteractiveMarkerFeedback::ConstPtr&) { letGo(); });
   choose(question_);
 }
@@ -97,15 +92,14 @@ void TipHandle::insertMarker(const Pose& X_BT) {
   visualization_msgs::InteractiveMarker marker;
   marker.header.frame_id = style_.frame;  // without a stamp, so that rviz answers in this frame
   marker.name = kName;
-  marker.description = titleOf(question_);
+  marker.description = kTitles[static_cast<size_t>(question_)];
   marker.scale = static_cast<float>(0.3 * solver_.model().scene().length());
   marker.pose = toPose(X_BT);
-  const Vector3 axes[] = {Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ()};
   for (int k = 0; k < 3; ++k) {
     const std::string name(1, "xyz"[k]);
-    marker.controls.push_back(axisControl(axes[k], InteractiveMarkerControl::MOVE_AXIS, "move_" + name));
+    marker.controls.push_back(axisControl(Vector3::Unit(k), InteractiveMarkerControl::MOVE_AXIS, "move_" + name));
     if (question_ != Question::kForceAtPosition)
-      marker.controls.push_back(axisControl(axes[k], InteractiveMarkerControl::ROTATE_AXIS, "turn_" + name));
+      marker.controls.push_back(axisControl(Vector3::Unit(k), InteractiveMarkerControl::ROTATE_AXIS, "turn_" + name));
   }
   InteractiveMarkerControl ball;  // drag it in the plane of the screen; a right click opens the menu
   ball.name = "move";
@@ -157,7 +151,7 @@ void TipHandle::update() {
   if (!dragged_) return;
   const ros::WallTime start = ros::WallTime::now();
   if (!isAnswered(estimate) && start >= next_answer_) {
-    ghost_ = answer(estimate);
+    answer(estimate);
     asked_ = Asked{estimate.effective, estimate.tip_wrench, *dragged_};
     const ros::WallTime end = ros::WallTime::now();
     next_answer_ = end + (end - start) * 4.0;
@@ -165,56 +159,42 @@ void TipHandle::update() {
   markers_.publish(makeGhostMarkers(&ghost_, options_.force_per_m, style_, newest.stamp));
 }
 
-Ghost TipHandle::answer(const Estimate& estimate) {
-  Ghost ghost = question_ == Question::kDeflectionUnderWrench ? answerDeflection(estimate) : answerForce(estimate);
-  ghost.text_place = {dragged_->p.x(), dragged_->p.y(),  // above handle, tip and eigenvalues
-                      std::max(dragged_->p.z(), estimate.solution.X_BT.p.z()) + 0.036};
-  return ghost;
+void TipHandle::answer(const Estimate& estimate) {
+  ghost_ = Ghost();
+  ghost_.text = question_ == Question::kDeflectionUnderWrench ? answerDeflection(estimate) : answerForce(estimate);
+  ghost_.text_place = {dragged_->p.x(), dragged_->p.y(),  // above handle, tip and eigenvalues
+                       std::max(dragged_->p.z(), estimate.solution.X_BT.p.z()) + 0.036};
 }
 
-Ghost TipHandle::answerForce(const Estimate& estimate) {
+std::string TipHandle::answerForce(const Estimate& estimate) {
   HoldGoal goal{dragged_->p, std::nullopt};
   if (question_ == Question::kWrenchAtPose) goal.orientation = dragged_->R;
   const HoldingWrench found =
       findHoldingWrench(solver_.model(), estimate.effective, estimate.tip_wrench, goal, solver_.workspace());
-  Ghost ghost;
-  if (!found.before.status.ok()) {
-    ghost.text = "no ghost: " + solver_.model().describe(found.before.status);
-  } else if (!isSameEquilibrium(found.before.X_BT, estimate.solution.X_BT, solver_.model())) {
-    ghost.text = kOtherShape;
-  } else if (!found.reached) {
-    ghost.text = "no stable equilibrium there;\nthe tip comes to " + numberText(1e3 * found.miss.position) +
-                 " mm from it under\n" + wrenchText(found.wrench);
-  } else {
-    const Pose predicted = predictDeflection(found.before.X_BT, found.before.compliance, found.wrench).exponential;
-    ghost.X_BT = found.held.X_BT;
-    ghost.force = linear(found.wrench);
-    ghost.text = wrenchText(found.wrench) + "\n" + motionText(found.before.X_BT, ghost.X_BT, predicted);
-    addShape(ghost);
-  }
-  return ghost;
+  if (!found.before.status.ok()) return "no ghost: " + solver_.model().describe(found.before.status);
+  if (!isSameEquilibrium(found.before.X_BT, estimate.solution.X_BT, solver_.model())) return kOtherShape;
+  if (!found.reached)
+    return "no stable equilibrium there;\nthe tip comes to " + numberText(1e3 * found.miss.position) +
+           " mm from it under\n" + wrenchText(found.wrench);
+  const Pose predicted = predictDeflection(found.before.X_BT, found.before.compliance, found.wrench).exponential;
+  return show(found.wrench, found.before.X_BT, found.held.X_BT, predicted);
 }
 
-Ghost TipHandle::answerDeflection(const Estimate& estimate) {
+std::string TipHandle::answerDeflection(const Estimate& estimate) {
   const DeflectionCheck check =
       checkDeflection(solver_.model(), estimate.effective, estimate.tip_wrench, wrench_, solver_.workspace());
-  Ghost ghost;
-  if (!check.undeflected_ok || !check.status.ok()) {
-    ghost.text = wrenchText(wrench_) + "\nno ghost: " + solver_.model().describe(check.status);
-  } else if (!isSameEquilibrium(check.undeflected, estimate.solution.X_BT, solver_.model())) {
-    ghost.text = kOtherShape;
-  } else {
-    ghost.X_BT = check.exact;
-    ghost.force = linear(wrench_);
-    ghost.text = wrenchText(wrench_) + "\n" + motionText(check.undeflected, check.exact, check.predicted.exponential);
-    addShape(ghost);
-  }
-  return ghost;
+  if (!check.undeflected_ok || !check.status.ok())
+    return wrenchText(wrench_) + "\nno ghost: " + solver_.model().describe(check.status);
+  if (!isSameEquilibrium(check.undeflected, estimate.solution.X_BT, solver_.model())) return kOtherShape;
+  return show(wrench_, check.undeflected, check.exact, check.predicted.exponential);
 }
 
-void TipHandle::addShape(Ghost& ghost) const {
+std::string TipHandle::show(const Wrench& wrench, const Pose& before, const Pose& after, const Pose& predicted) {
+  ghost_.X_BT = after;
+  ghost_.force = linear(wrench);
   for (const Station& station : sampleBackbone(solver_.model(), solver_.workspace(), kShapeSections))
-    ghost.shape.push_back(station.X_BQ);
+    ghost_.shape.push_back(station.X_BQ);
+  return wrenchText(wrench) + "\n" + motionText(before, after, predicted);
 }
 
 }  // namespace live_stiffness

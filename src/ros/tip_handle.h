@@ -23,29 +23,30 @@ namespace live_stiffness {
 
 class TipHandle {
  public:
-  enum class Question { kForceAtPosition, kWrenchAtPose, kDeflectionUnderWrench };
-  static constexpr char kName[] = "tip";  // of the interactive marker
 
   // Serves the interactive marker on ~tip_marker, and publishes the ghost on `markers`.
   TipHandle(const ros::NodeHandle& private_node, const MarkerStyle& style,
             const TipHandleOptions& options, const ros::Publisher& markers, GetSnapshot get_snapshot);
-  TipHandle(const TipHandle&) = delete;  // callbacks refer to it
 
   // Moves the handle with the tip, or answers for the newest estimate. Call it at the rate of the markers. Dragging only
   // moves the handle, so that no queue of requests builds up. Answers take at most a fifth of the time.
   void update();
 
  private:
+  enum class Question { kForceAtPosition, kWrenchAtPose, kDeflectionUnderWrench };
+
   void drag(const visualization_msgs::InteractiveMarkerFeedback& feedback);
   void choose(Question question);
   void letGo();
   void fillMenu();
   void insertMarker(const Pose& X_BT);
   bool isAnswered(const Estimate& estimate) const;
-  Ghost answer(const Estimate& estimate);
-  Ghost answerForce(const Estimate& estimate);
-  Ghost answerDeflection(const Estimate& estimate);
-  void addShape(Ghost& ghost) const;
+  void answer(const Estimate& estimate);  // sets ghost_
+  // Both set the shape of ghost_, if there is one, and return its text.
+  std::string answerForce(const Estimate& estimate);
+  std::string answerDeflection(const Estimate& estimate);
+  // The shape is that of the last solve; the tip before and after the wrench was added, and as (19) predicts it.
+  std::string show(const Wrench& wrench, const Pose& before, const Pose& after, const Pose& predicted);
 
   MarkerStyle style_;
   TipHandleOptions options_;

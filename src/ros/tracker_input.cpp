@@ -1,39 +1,27 @@
 #include "ros/tracker_input.h"
 
-#include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
-
 #include <algorithm>
 
 namespace live_stiffness {
 
 using diagnostic_msgs::DiagnosticStatus;
 
-struct TrackerInput::Tf {
-  explicit Tf(const ros::NodeHandle& node) : listener(buffer, node) {}
-
-  tf2_ros::Buffer buffer;
-  tf2_ros::TransformListener listener;
-};
-
 TrackerInput::TrackerInput(const ros::NodeHandle& node, const NodeParameters& parameters)
     : parameters_(parameters), status_("aurora_pose") {
-  if (!parameters_.tracker_tf_frame.empty()) tf_ = std::make_unique<Tf>(node);
+  if (!parameters_.tracker_tf_frame.empty()) tf_listener_.emplace(tf_, node);
 }
 
-TrackerInput::~TrackerInput() = default;
-
 std::optional<TipMeasurement> TrackerInput::read(const AnyMessage& message) {
-  return accept(readPose(*message.getConstMessage(), parameters_.position_unit));
+  return accept(readPose(*message.getConstMessage(), metresPerUnit(parameters_.position_unit)));
 }
 
 std::optional<TipMeasurement> TrackerInput::lookUp() {
   try {
     const geometry_msgs::TransformStamped transform =
-        tf_->buffer.lookupTransform(parameters_.tracker_frame, parameters_.tracker_tf_frame, ros::Time(0));
+        tf_.lookupTransform(parameters_.tracker_frame, parameters_.tracker_tf_frame, ros::Time(0));
     if (transform.header.stamp == last_tf_stamp_) return std::nullopt;
     last_tf_stamp_ = transform.header.stamp;
-    return accept(readPose(transform, parameters_.position_unit));
+    return accept(readPose(transform, metresPerUnit(parameters_.position_unit)));
   } catch (const tf2::TransformException& error) {
     status_.reject(error.what());
     return std::nullopt;

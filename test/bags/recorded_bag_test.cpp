@@ -89,7 +89,7 @@ TEST_F(RecordedBag, ReadsWhatARigOfItsOwnHasRecorded) {
   bag_.write("ndi/tool_1", stamp, toPoseStamped({Matrix3::Identity(), Vector3(120.0, 0.0, 0.0)}, stamp, "aurora"));
   bag_.write("/nano17", stamp, toWrenchStamped(Wrench(0.5 * Wrench::Unit(0)), stamp, "nano17"));
   bag_.close();
-  BagFormat format{"valves/pressure", "/ndi/tool_1", "nano17", {1e3, true}, 1e-3};
+  BagFormat format{"valves/pressure", "/ndi/tool_1", "nano17", {"kPa", "absolute"}, "mm"};
   const Recording recording = loadRecordedBag(path_, format);
   ASSERT_EQ(recording.samples.size(), 1u);
   EXPECT_TRUE(matrixNear(recording.samples[0].pressures, Pressures::Constant(3, 10e3), 1e-6));

@@ -24,7 +24,7 @@ ModelOptions continuous() {
 
 class RegistrationBufferTest : public ::testing::Test {
  protected:
-  static SimulatedRecording exact(ProgramKind program = ProgramKind::kTriangle) {
+  static SimulatedRecording exact(const std::string& program = "triangle") {
     SimulatedRecording simulated;
     simulated.position_noise = simulated.rotation_noise = 0.0;
     simulated.program = program;
@@ -81,7 +81,7 @@ TEST_F(RegistrationBufferTest, PosesBetweenThePressuresAreMetByInterpolation) {
 }
 
 TEST_F(RegistrationBufferTest, AppliesTheCreepOfTheScene) {
-  SimulatedRecording simulated = exact(ProgramKind::kStaircase);
+  SimulatedRecording simulated = exact("staircase");
   simulated.seconds = 90.0;
   simulated.creep_share = 0.1;
   const Recording recording = simulated.record(scene());
@@ -135,7 +135,7 @@ TEST_F(RegistrationBufferTest, SaysWhenNothingIsQuasiStatic) {
 }
 
 TEST_F(RegistrationBufferTest, QuasiStaticSamplesOfAStaircaseAreUsedAlone) {
-  SimulatedRecording simulated = exact(ProgramKind::kStaircase);
+  SimulatedRecording simulated = exact("staircase");
   simulated.seconds = 90.0;
   feed(buffer_, simulated.record(scene()));
   RegistrationWindow window;

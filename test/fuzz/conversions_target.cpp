@@ -26,7 +26,7 @@ topic_tools::ShapeShifter onTheWire(const std::uint8_t* data, size_t size) {
 void checkArrays(const topic_tools::ShapeShifter& message) {
   for (const bool absolute : {false, true}) {
     PressureFormat format;
-    format.absolute = absolute;
+    format.reference = absolute ? "absolute" : "gauge";
     const Parsed<Pressures> pressures = readPressures(message, format);
     require(!pressures.ok() || pressures.value.allFinite(), "pressures are finite");
   }

@@ -45,8 +45,8 @@ TEST(Conversions, ArraysAreReadInTheirUnitAndReference) {
   std_msgs::Float64MultiArray doubles;
   doubles.data = {101.325, 151.325};
   PressureFormat absolute_kpa;
-  absolute_kpa.unit = pascalsPerUnit("kPa");
-  absolute_kpa.absolute = true;
+  absolute_kpa.unit = "kPa";
+  absolute_kpa.reference = "absolute";
   auto reading = readPressures(onTheWire(doubles), absolute_kpa);
   ASSERT_TRUE(reading.ok());
   EXPECT_NEAR(reading.value[0], 0.0, 1e-9);
@@ -55,7 +55,7 @@ TEST(Conversions, ArraysAreReadInTheirUnitAndReference) {
   std_msgs::Float32MultiArray floats;
   floats.data = {1.0f, 0.5f};
   PressureFormat bar;
-  bar.unit = pascalsPerUnit("bar");
+  bar.unit = "bar";
   reading = readPressures(onTheWire(floats), bar);
   ASSERT_TRUE(reading.ok());
   EXPECT_EQ(reading.value[1], 0.5e5);
@@ -76,7 +76,7 @@ TEST(Conversions, BadPressuresAreErrorsThatNameTheChannel) {
   EXPECT_NE(readPressures(onTheWire(message), PressureFormat()).error.find("channel 2"), std::string::npos);
   message.data = {-5.0, 1.0};
   PressureFormat absolute;
-  absolute.absolute = true;
+  absolute.reference = "absolute";
   EXPECT_NE(readPressures(onTheWire(message), absolute).error.find("negative"), std::string::npos);
   EXPECT_TRUE(readPressures(onTheWire(message), PressureFormat()).ok()) << "a gauge pressure may be negative";
   message.data[0] = 3e38;

@@ -34,7 +34,7 @@ long residentKilobytes(const std::string& pid) {
 
 std::vector<RigSample> oneRound() {
   RigOptions options;
-  options.program.kind = ProgramKind::kRandomWalk;
+  options.program.kind = "random_walk";
   options.drop_out_probability = 0.0;
   RigModel rig(loadSceneFile(parameter("scene_file")), options);
   std::vector<RigSample> samples;

@@ -19,7 +19,7 @@ struct SimulatedRecording {
   double rotation_noise = 0.005;    // per axis, rad
   double creep_share = 0.0, creep_time = 2.0;
   double outlier_share = 0.0;       // of samples, displaced by 20 mm
-  ProgramKind program = ProgramKind::kTriangle;
+  std::string program = "triangle";
 
   Registration registration() const {
     return {{expSo3(Vector3(0.4, -0.2, 2.0)), Vector3(0.1, 0.2, -0.3)},
@@ -31,7 +31,7 @@ struct SimulatedRecording {
     RigOptions options;
     options.drop_out_probability = 0.0;
     options.channel_of_chamber = {0, 0, 1, 1, 2, 2};
-    options.program = {program, amplitude, 12.0, 1};
+    options.program = {program, amplitude, 12.0};
     options.registration = registration();
     options.regulator_error = options.position_noise = options.rotation_noise = 0.0;
     options.creep_fraction = creep_share;

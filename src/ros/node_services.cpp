@@ -1,7 +1,9 @@
-#include "ros/stiffness_services.h"
+// Services of a StiffnessNode about the newest estimate: ~predict_deflection, ~compliance_at, ~directional_stiffness. They have
+// their own workspace, so that the live solver is not affected.
 
 #include "live_stiffness/analysis/directional_stiffness.h"
 #include "live_stiffness/analysis/generalised_compliance.h"
+#include "ros/stiffness_node.h"
 
 namespace live_stiffness {
 namespace {
@@ -11,33 +13,24 @@ constexpr char kOtherShape[] =
 
 }  // namespace
 
-StiffnessServices::StiffnessServices(ros::NodeHandle private_node, FrameNames frames,
-                                     GetSnapshot get_snapshot)
-    : frames_(std::move(frames)), get_snapshot_(std::move(get_snapshot)) {
-  servers_ = {
-      private_node.advertiseService("predict_deflection", &StiffnessServices::predictDeflection, this),
-      private_node.advertiseService("compliance_at", &StiffnessServices::complianceAt, this),
-      private_node.advertiseService("directional_stiffness", &StiffnessServices::directionalStiffness, this)};
-}
-
 template <class Response, class Answer>
-bool StiffnessServices::reply(Response& response, Answer answer) {
-  const EstimateSnapshot newest = get_snapshot_();
+bool StiffnessNode::reply(Response& response, Answer answer) {
+  const EstimateSnapshot newest = snapshot();
   solver_.setModel(newest.model);
   if (newest.estimate == nullptr) {
     response.message = "nothing solved yet: waiting for usable pressures";
   } else {
     response.stale = newest.stale;
-    response.header = toHeader(newest.stamp, frames_.base);
+    response.header = toHeader(newest.stamp, parameters_.frames.base);
     response.message = answer(*newest.estimate);
     response.success = response.message.empty();
   }
   return true;
 }
 
-bool StiffnessServices::predictDeflection(PredictDeflection::Request& request, PredictDeflection::Response& response) {
+bool StiffnessNode::predictDeflection(PredictDeflection::Request& request, PredictDeflection::Response& response) {
   return reply(response, [&](const Estimate& estimate) -> std::string {
-    const Parsed<Wrench> wrench = readWrench(request.wrench, frames_, &estimate.solution.X_BT);
+    const Parsed<Wrench> wrench = readWrench(request.wrench, parameters_.frames, &estimate.solution.X_BT);
     if (!wrench.ok()) return wrench.error;
     const DeflectionCheck check =
         checkDeflection(solver_.model(), estimate.effective, estimate.tip_wrench, wrench.value, solver_.workspace());
@@ -51,7 +44,7 @@ bool StiffnessServices::predictDeflection(PredictDeflection::Request& request, P
   });
 }
 
-bool StiffnessServices::complianceAt(ComplianceAt::Request& request, ComplianceAt::Response& response) {
+bool StiffnessNode::complianceAt(ComplianceAt::Request& request, ComplianceAt::Response& response) {
   return reply(response, [&](const Estimate& estimate) -> std::string {
     FaultList faults("compliance_at");
     faults.check("segment", request.segment, {0.0, solver_.model().scene().segmentCount() - 1.0});
@@ -75,10 +68,10 @@ bool StiffnessServices::complianceAt(ComplianceAt::Request& request, ComplianceA
   });
 }
 
-bool StiffnessServices::directionalStiffness(DirectionalStiffness::Request& request,
-                                             DirectionalStiffness::Response& response) {
+bool StiffnessNode::directionalStiffness(DirectionalStiffness::Request& request,
+                                         DirectionalStiffness::Response& response) {
   return reply(response, [&](const Estimate& estimate) -> std::string {
-    const Parsed<Matrix3> axes = readAxes(request.frame_id, frames_, &estimate.solution.X_BT);
+    const Parsed<Matrix3> axes = readAxes(request.frame_id, parameters_.frames, &estimate.solution.X_BT);
     if (!axes.ok()) return axes.error;
     const Parsed<Vector3> direction = readVector(request.direction, "direction"),
                            offset = readVector(request.offset, "offset");
