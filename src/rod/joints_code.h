@@ -60,7 +60,9 @@ struct Joints {
       put(M_inverse, e.pivot_inverse);
       if (k == 0) break;
       const Matrix A = columns(t.phi + kOfRotation), C = columns(t.m + kOfRotation);
-      S = M_inverse * (clamped_end ? Matrix{} - A : S * A - C);
+      S = S * A - C;
+      if (clamped_end) S = Matrix{} - A;
+      S = M_inverse * S;
       put(S, e.stiffness);
     }
     return unstable;
