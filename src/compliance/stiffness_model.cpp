@@ -106,7 +106,7 @@ SolveStatus StiffnessModel::solveInto(StiffnessSolution& solution, PressuresRef 
     if (!report.stable) return {SolveCode::kUnstable, -1, report.stable_share};
     solution.numerical_error = report.relativeError() * report.buckling_factor;
     const Chain& chain = state.statics.chain();
-    solution.numerical_error += accumulateMaterial(chain, options_.accuracy, backbone, solution.material_compliance);
+    accumulateMaterial(chain, options_.accuracy, backbone, solution.material_compliance);
     solution.compliance = state.statics.tangentCompliance();
   } else {
     state.statics.prepareUnloaded(backbone);

@@ -49,30 +49,27 @@ struct ChainCompliance {
     Vector about_{};
   };
 
-  static double accumulate(const ChainState& chain, double accuracy, const double (&p_tip)[3], PackedRow& compliance) {
+  static void accumulate(const ChainState& chain, double accuracy, const double (&p_tip)[3], PackedRow& compliance) {
     Passed passed;
-    double error = 0.0;
     walk(
         chain, [](const Vector&, const Vector&) {},
         [&](ElementState& e, bool) {
           M::material(e, false, accuracy);
           passed.pass(e);
-          error += e.compliance_error;
         });
     passed.finish(get(p_tip), compliance);
-    return error;
   }
 
-  static double placeChain(const ChainState& chain, double accuracy, MarchResult& result, PackedRow& compliance) {
+  static int placeChain(const ChainState& chain, double accuracy, MarchResult& result, PackedRow& compliance) {
     SectionState at{};
     Passed passed;
-    double error = 0.0;
+    int beyond = 0;
     walk(
         chain, [&](const Vector& piece, const Vector&) { at.pass(piece, {}); },
         [&](ElementState& e, bool) {
           at.enter(e, true);
           const double bending = e.length * e.length * squaredNorm(e.rest_curvature);
-          if (!(bending <= kMaxUnloadedBending * kMaxUnloadedBending)) error += 1.0;  // beyond the range of the series
+          beyond += !(bending <= kMaxUnloadedBending * kMaxUnloadedBending);
           if (bendsAsArc(e)) {
             placeArc(e);
           } else {
@@ -80,14 +77,13 @@ struct ChainCompliance {
             M::material(e, true, accuracy);
           }
           passed.pass(e);
-          error += e.compliance_error;
           at.leave(e);
         });
     if (hasOffset(chain)) at.pass(get(chain.tip_offset), {});
     put(at.R, result.R_tip);
     put(at.p, result.p_tip);
     passed.finish(at.p, compliance);
-    return error;
+    return beyond;
   }
 };
 

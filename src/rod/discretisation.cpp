@@ -13,7 +13,7 @@ constexpr double kLeastDemand = 1e-3;
 constexpr struct {
   int stages;
   double reach, cost;
-} kChoices[] = {{3, 4.7, 0.5}, {5, 5.0, 0.85}, {7, 5.8, 1.0}};
+} kChoices[] = {{5, 5.0, 0.85}, {7, 5.8, 1.0}};
 
 // Bending of an element that the accuracy allows, rad.
 double bendingOfAnElement(int stages, double accuracy) {
@@ -46,7 +46,7 @@ Discretisation::Discretisation(const Chain& chain, double accuracy, int stages)
   count_.assign(demand_.size(), 1);
   safety_factor_ = seen_safety_factor_ = std::vector<double>(demand_.size(), 1.0);
   // For a nearly straight rod the estimate is unreliable and too small for few stages, so these are not used at high accuracy.
-  const int least = accuracy >= 1e-6 ? 3 : accuracy >= 1e-10 ? 5 : 7;
+  const int least = accuracy >= 1e-10 ? 5 : 7;
   for (const auto& choice : kChoices)
     if (stages == choice.stages || (stages == 0 && choice.stages >= least))
       choices_.push_back({choice.stages, choice.cost, bendingOfAnElement(choice.stages, accuracy)});

@@ -100,7 +100,7 @@ inline void placeArc(ElementState& e) {
   for (int i = 0; i < 3; ++i) e.n_end[i] = e.m_end[i] = 0.0;
   storeFirst(arc.compliance, e.compliance);
   e.is_arc = e.unloaded = true;
-  e.compliance_error = e.station_error = 0.0;
+  e.station_error = 0.0;
 }
 
 inline void arcStations(const ElementState& e, const StationBatch& s, const StationResults& out, int v) {

@@ -50,10 +50,11 @@ struct ElementKernel {
   // residuals subtracted if `correct`. 6x6, column-major.
   void (*tangent)(ElementState* elements, int count, bool correct, double* compliance);
   // Material compliance of the whole chain about T, which is at p_tip, and of the part before each element. Call it after
-  // the shape under dead loads. Returns an estimate of the relative error that this adds to that of the shape.
-  double (*accumulate)(const ChainState&, double accuracy, const double (&p_tip)[3], PackedRow& compliance);
-  // The same of a chain on which nothing external acts, with its shape. Sets R_tip and p_tip of the result.
-  double (*place_chain)(const ChainState&, double accuracy, MarchResult&, PackedRow& compliance);
+  // the shape under dead loads.
+  void (*accumulate)(const ChainState&, double accuracy, const double (&p_tip)[3], PackedRow& compliance);
+  // The same of a chain on which nothing external acts, with its shape. Sets R_tip and p_tip of the result. Returns how many
+  // elements bend by more than kMaxUnloadedBending.
+  int (*place_chain)(const ChainState&, double accuracy, MarchResult&, PackedRow& compliance);
 };
 
 constexpr double kMaxUnloadedBending = 1.6;  // rad an element

@@ -23,4 +23,4 @@ constexpr ElementKernel kernelOf() {
 }  // namespace
 }  // namespace live_stiffness
 
-#define LIVE_STIFFNESS_KERNELS {kernelOf<3>(), kernelOf<5>(), kernelOf<7>()}
+#define LIVE_STIFFNESS_KERNELS {kernelOf<5>(), kernelOf<7>()}

@@ -7,7 +7,8 @@
 
 namespace live_stiffness {
 
-constexpr int kStageCounts[] = {3, 5, 7};  // Gauss nodes that an element may have
+// Gauss nodes that an element may have. With 3 a rod needs two elements where 5 need one, which costs more at any accuracy.
+constexpr int kStageCounts[] = {5, 7};
 constexpr int kMaxStages = 7;
 typedef double StageRow[kMaxStages + 1] __attribute__((aligned(64)));
 
@@ -100,7 +101,6 @@ struct ElementState {
   bool is_arc, unloaded;
   int dense_nodes;
   double dense[kMaxNodes][kDenseRow] __attribute__((aligned(32)));
-  double compliance_error;  // estimate of its relative error that the grid adds
   double station_error;     // estimate of the relative error of stations()
 
   // Material compliance of everything before the element's start and end, about these. Set by accumulate().

@@ -1,5 +1,6 @@
 #pragma once
-// Chooses the grid for the material compliance of an element at the accuracy asked for, and estimates its error.
+// Chooses the grid for the material compliance of an element at the accuracy asked for, and estimates its error between the
+// nodes. Integrals over the whole element are exact to rounding with each.
 
 #include "rod/element_arc_code.h"
 #include "rod/element_material_code.h"
@@ -11,15 +12,9 @@ namespace {
 // arcs, for any bending up to kMaxUnloadedBending, is 0.6 to 1 times this.
 template <int kDense>
 LIVE_STIFFNESS_INLINE double interpolationError(double x_squared) {
-  double error = (kDense == 4 ? 2.0e-3 : kDense == 8 ? 2.7e-8 : 1.7e-13) * (1.0 + 0.25 * x_squared);
+  double error = (kDense == 8 ? 2.7e-8 : 1.7e-13) * (1.0 + 0.25 * x_squared);
   for (int i = 2; i < kDense; i += 2) error *= x_squared;
   return error;
-}
-
-// The same for the integral over the whole element; for 8 nodes and more it is below rounding.
-template <int kDense>
-LIVE_STIFFNESS_INLINE double quadratureError(double x_squared) {
-  return kDense == 4 ? 5e-8 * x_squared * x_squared * x_squared * (1.0 + 0.25 * x_squared) : 0.0;
 }
 
 // With the cheapest grid that is accurate enough.
@@ -39,15 +34,13 @@ struct MaterialChoice {
       error = improved ? e.interior_error / kImprovement : e.interior_error;
     }
     e.is_arc = false;
-    if (kStages <= 4 && interpolationError<4>(bending) <= accuracy) run<4>(e, unloaded, bending, error, improved);
-    else if (interpolationError<8>(bending) <= accuracy) run<8>(e, unloaded, bending, error, improved);
+    if (interpolationError<8>(bending) <= accuracy) run<8>(e, unloaded, bending, error, improved);
     else run<12>(e, unloaded, bending, error, improved);
   }
 
   static void stations(const ElementState& e, const StationBatch& s, const StationResults& out) {
     for (int v = 0; kPackSize * v < s.size; ++v) {
       if (e.is_arc) arcStations(e, s, out, v);
-      else if (e.dense_nodes == 4) Material<4>::stations(e, s, out, v);
       else if (e.dense_nodes == 8) Material<8>::stations(e, s, out, v);
       else Material<12>::stations(e, s, out, v);
     }
@@ -60,7 +53,6 @@ struct MaterialChoice {
     e.dense_nodes = kDense;
     e.unloaded = unloaded;
     e.station_error = interpolationError<kDense>(bending) + collocation_error;
-    e.compliance_error = quadratureError<kDense>(bending);
     Material<kDense>::material(e, kStages, unloaded, improved);
   }
 };

@@ -92,7 +92,7 @@ TEST_P(EveryPasses, HasTwiceTheOrderOfItsStages) {
   RodElement element = loadedElement();
   element.state.length = 0.16;  // long, so that the finer one is still above rounding
   const Pose exact = endInPieces(element, 96);
-  const int coarse = stages() <= 3 ? 12 : 4, fine = stages() <= 3 ? 24 : stages() <= 5 ? 8 : 6;
+  const int coarse = 4, fine = stages() <= 5 ? 8 : 6;
   const double coarse_error = (endInPieces(element, coarse).p - exact.p).norm();
   const double fine_error = (endInPieces(element, fine).p - exact.p).norm();
   EXPECT_GT(fine_error, 1e-16);

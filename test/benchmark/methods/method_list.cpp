@@ -30,7 +30,7 @@ MethodEntry library(const std::string& family, const std::string& variant, doubl
 }  // namespace
 
 double accuracyOfStages(int stages) {
-  return stages == 3 ? 1e-3 : stages == 5 ? 1e-6 : 1e-10;
+  return stages == 5 ? 1e-6 : 1e-10;
 }
 
 std::vector<MethodEntry> methodList() {
