@@ -114,7 +114,7 @@ TEST(EnergyDescent, EndsInTheSolversEquilibriumToSecondOrder) {
     ASSERT_TRUE(model.solve(bars(0.5, {1, 1, 0.6, 0.2, 0, 0}).replicate(2, 1), wrench, workspace).status.ok());
     const Matrix3 expected = workspace.backbone().X_BT.R;
     Backbone rest = workspace.backbone();
-    rest.resize({1, 1}, 3);
+    rest.resize({1, 1}, kMaxStages);
     const auto error = [&](int intervals) {
       const Descent descent = descend(scene, rest, {*scene.gravity, wrench}, intervals);
       EXPECT_EQ(descent.end, EnergyDescent::End::kMinimum);

@@ -71,7 +71,7 @@ TEST(NodalRotations, TakeTheUnloadedShapeAsItIs) {
 
 // Where a node is a border of elements before and after, nothing is interpolated.
 TEST(NodalRotations, KeepTheBordersOfElements) {
-  BentChain from({4, 6}), to({2, 3}, 3);
+  BentChain from({4, 6}), to({2, 3}, 5);
   from.solve();
   NodalRotations shape(from.chain());
   shape.resize(from.backbone(), 1);
