@@ -11,9 +11,6 @@
 namespace live_stiffness {
 namespace {
 
-// Rods under end loads need so many elements of three stages that elements of five stages are faster at any accuracy.
-constexpr double kCoarsest = 1e-7;
-
 Scene sceneOf(const ParallelRod& rod) {
   Scene scene;
   Segment segment;
@@ -31,7 +28,7 @@ ClampedRod::ClampedRod(const ParallelRod& rod, const Vector3& gravity, double ac
     : X_BD_(rod.X_BD),
       gravity_(rod.X_BD.R.transpose() * gravity),
       linear_density_(rod.section.linearDensity()),
-      accuracy_(std::min(accuracy, kCoarsest)),
+      accuracy_(accuracy),
       scene_(sceneOf(rod)),
       chain_(scene_),
       backbone_(scene_, simd),
