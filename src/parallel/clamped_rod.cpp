@@ -11,6 +11,9 @@
 namespace live_stiffness {
 namespace {
 
+// At a coarser accuracy elements of five stages are chosen, and a third more of them, which is slower than seven at 1e-7.
+constexpr double kCoarsest = 1e-7;
+
 Scene sceneOf(const ParallelRod& rod) {
   Scene scene;
   Segment segment;
@@ -28,7 +31,7 @@ ClampedRod::ClampedRod(const ParallelRod& rod, const Vector3& gravity, double ac
     : X_BD_(rod.X_BD),
       gravity_(rod.X_BD.R.transpose() * gravity),
       linear_density_(rod.section.linearDensity()),
-      accuracy_(accuracy),
+      accuracy_(std::min(accuracy, kCoarsest)),
       scene_(sceneOf(rod)),
       chain_(scene_),
       backbone_(scene_, simd),
