@@ -103,7 +103,7 @@ start_master
 rosparam load "$work/parameters.yaml"
 within 30 "the node does not come back" rosnode ping -c 1 /stiffness_node
 # The rig of the launch file is not known to the new master. Two of one name would end each other.
-old_rig=$(sed -n 's/.*rig_simulator-1\]: started with pid \[\([0-9]*\)\].*/\1/p' "$work/roslaunch.log")
+old_rig=$(sed -n 's/.*rig_simulator-[0-9]*\]: started with pid \[\([0-9]*\)\].*/\1/p' "$work/roslaunch.log")
 kill "$old_rig"
 within 20 "the old rig does not end" bash -c "! kill -0 $old_rig"
 start_rig rig_simulator
