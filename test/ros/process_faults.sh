@@ -84,26 +84,27 @@ start_master
 roslaunch -p $port "$source/launch/demo.launch" respawn:=true >"$work/roslaunch.log" 2>&1 &
 launch=$!
 pids+=("$launch")
-pid_of() { rosnode info /stiffness_node 2>/dev/null | sed -n 's/^Pid: //p'; }
+pid_of() { rosnode info "/$1" 2>/dev/null | sed -n 's/^Pid: //p'; }
 within 30 "no fresh estimate" is_fresh
-old=$(pid_of)
+old=$(pid_of stiffness_node)
 [ -n "$old" ] || fail "no pid of the node"
 kill -9 "$old"
 begin=$(now)
-is_another() { [ -n "$(pid_of)" ] && [ "$(pid_of)" != "$old" ]; }
+is_another() { local new; new=$(pid_of stiffness_node); [ -n "$new" ] && [ "$new" != "$old" ]; }
 within 20 "it does not come back" is_another
 within 20 "it came back without estimates" is_fresh
 echo "  first fresh estimate seen after $(since "$begin"), two command line tools included"
 
 echo "- the master is killed and comes back under respawn, its parameters with it"
 rosparam dump "$work/parameters.yaml"
+# The rig of the launch file will not be known to the new master. Two of one name would end each other.
+old_rig=$(pid_of rig_simulator)
+[ -n "$old_rig" ] || fail "no pid of the rig"
 kill -9 $master; wait $master 2>/dev/null || true
 within 30 "the node does not end with status 3" grep -q "stiffness_node.*exit code 3" "$work/roslaunch.log"
 start_master
 rosparam load "$work/parameters.yaml"
 within 30 "the node does not come back" rosnode ping -c 1 /stiffness_node
-# The rig of the launch file is not known to the new master. Two of one name would end each other.
-old_rig=$(sed -n 's/.*rig_simulator-[0-9]*\]: started with pid \[\([0-9]*\)\].*/\1/p' "$work/roslaunch.log")
 kill "$old_rig"
 within 20 "the old rig does not end" bash -c "! kill -0 $old_rig"
 start_rig rig_simulator
