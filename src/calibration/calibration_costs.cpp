@@ -79,9 +79,9 @@ bool ComplianceCost::Evaluate(double const* const* blocks, double* residuals, do
   J.setZero();
   for (size_t k = 0; k < parameters_.size(); ++k) {
     const ParameterStep step = stepAbout(values, parameters_, k);
-    if (!(step.distance > 0.0)) continue;
+    if (!(step.distance() > 0.0)) continue;
     if (!evaluate(step.above, errors) || !evaluate(step.below, below)) return false;
-    J.col(static_cast<long>(k)) = (errors - below) * (parameters_[k].prior_sigma / step.distance);
+    J.col(static_cast<long>(k)) = (errors - below) * (parameters_[k].prior_sigma / step.distance());
   }
   return true;
 }

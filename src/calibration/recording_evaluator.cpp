@@ -64,12 +64,16 @@ bool RecordingEvaluator::differentiate(const Eigen::VectorXd& values) {
   for (auto& derivative : predictions_.derivative) derivative.setZero(6, values.size());
   std::vector<Pose> above, below;
   for (size_t k = 0; k < parameters_.size(); ++k) {
-    const ParameterStep step = stepAbout(values, parameters_, k);
-    if (!(step.distance > 0.0)) continue;
-    if (!predict(step.above, false, above) || !predict(step.below, false, below)) return false;
+    ParameterStep step = stepAbout(values, parameters_, k);
+    if (!(step.distance() > 0.0)) continue;
+    const bool is_above = predict(step.above, false, above), is_below = predict(step.below, false, below);
+    if (!is_above && !is_below) return false;
+    // Next to where solutions end, the side that has them counts.
+    if (!is_above) above = X_BT, step.above = values;
+    if (!is_below) below = X_BT, step.below = values;
     for (size_t i = 0; i < X_BT.size(); ++i) {
       if (!data_.used[i]) continue;
-      predictions_.derivative[i].col(static_cast<long>(k)) = residualTwist(above[i], below[i]) / step.distance;
+      predictions_.derivative[i].col(static_cast<long>(k)) = residualTwist(above[i], below[i]) / step.distance();
     }
   }
   return true;

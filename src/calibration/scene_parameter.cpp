@@ -154,10 +154,9 @@ Eigen::VectorXd valuesAt(const std::vector<SceneParameter>& parameters, const do
 ParameterStep stepAbout(const Eigen::VectorXd& values, const std::vector<SceneParameter>& parameters, size_t which) {
   const SceneParameter& p = parameters[which];
   const auto k = static_cast<long>(which);
-  ParameterStep step{values, values, 0.0};
+  ParameterStep step{values, values};
   step.above[k] = std::min(values[k] + p.step, p.high);
   step.below[k] = std::max(values[k] - p.step, p.low);
-  step.distance = step.above[k] - step.below[k];
   return step;
 }
 

@@ -40,7 +40,7 @@ Eigen::VectorXd valuesAt(const std::vector<SceneParameter>& parameters, const do
 // Values (SI) a step above and below, by one parameter only, for a central difference; the bounds stop a step.
 struct ParameterStep {
   Eigen::VectorXd above, below;
-  double distance;  // between the two, SI
+  double distance() const { return (above - below).sum(); }  // SI
 };
 ParameterStep stepAbout(const Eigen::VectorXd& values, const std::vector<SceneParameter>& parameters, size_t which);
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+
 #include "support/scenes.h"
 
 namespace live_stiffness {
@@ -149,6 +151,31 @@ TEST(RecordingEvaluator, DerivativesAtABoundAreThoseOfTheLegalSide) {
     }
   }
   EXPECT_EQ(tested, 2);
+}
+
+// A thousandth of a prior sigma softer, and the section has no solution under this pressure.
+TEST(RecordingEvaluator, DerivativesWhereSolutionsEndAreThoseOfTheSideThatHasThem) {
+  Problem problem(paperScene(1), Stepping::kContinuous, true);
+  const Eigen::VectorXd x = Eigen::VectorXd::Zero(static_cast<long>(problem.parameters.size()));
+  const auto predictionsAt = [&](double pressure, bool derivatives) -> std::optional<TipPredictions> {
+    problem.data.channels[1].setConstant(pressure);
+    RecordingEvaluator evaluator(problem.scene, problem.channels, problem.parameters, problem.data, problem.options);
+    const TipPredictions* predictions = evaluator.at(x.data(), derivatives);
+    return predictions ? std::optional<TipPredictions>(*predictions) : std::nullopt;
+  };
+  double low = 5e4, high = 5e5;  // Pa
+  for (int i = 0; i < 40; ++i) {
+    const double pressure = 0.5 * (low + high);
+    (predictionsAt(pressure, false) ? low : high) = pressure;
+  }
+  const auto predictions = predictionsAt(low, true);
+  ASSERT_TRUE(predictions);
+  for (size_t k = 0; k < problem.parameters.size(); ++k) {
+    if (problem.parameters[k].name != "youngs_modulus_pa") continue;
+    const auto z = predictions->derivative[1](2, static_cast<long>(k));
+    EXPECT_LT(z, 0.0) << "stiffer is shorter";
+    EXPECT_TRUE(predictions->derivative[1].allFinite());
+  }
 }
 
 TEST(RecordingEvaluator, NamesTheSampleThatHasNoSolution) {
