@@ -57,6 +57,10 @@ inline constexpr NumberParameter kPressureTimeout{
 // geometry_msgs/PoseStamped, PoseWithCovarianceStamped or TransformStamped; the type is recognised. The tracker is
 // optional: without it everything but the tracking error and contact is published.
 inline const ChoiceParameter kPositionUnit{"aurora_position_unit", "m", {"m", "mm"}, "Unit of the positions."};
+inline const ChoiceParameter kTrackerMeasures{
+    "tracker_measures", "", {"", "pose", "position", "position_and_axis"},
+    "What the tracker measures of its sensor: all; its position only (one marker); or its position and its z axis (a coil "
+    "with five degrees of freedom). Empty: found from the data, and said."};
 inline constexpr FrameParameter kTrackerFrame{
     "tracker_frame", "aurora",
     "frame_id of the poses; a leading slash, an empty frame_id and sensor_frame are accepted too."};

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "live_stiffness/estimation/tracker_measures.h"
 #include "live_stiffness/lie/se3.h"
 
 namespace live_stiffness {
@@ -26,6 +27,9 @@ struct RecordedSample {
   // Orientation q_AS of the tip sensor, unit norm. Of the two signs of one rotation it has the one that is nearer to the
   // previous sample, so that the components are continuous in time.
   Eigen::Quaterniond tip_orientation = Eigen::Quaterniond::Identity();
+  // How long the tracker has repeated just this pose, s; 0: it is a new one. A tracker that has lost its sensor repeats itself,
+  // and a recording with a higher rate than the tracker's does, too.
+  double unchanged_for = 0.0;
   std::optional<Wrench> tip_wrench;  // [f; m] as recorded: in the sensor's axes, at the sensor; N and N m
 
   Pose tipPose() const { return {tip_orientation.toRotationMatrix(), tip_position}; }  // X_AS
@@ -33,6 +37,7 @@ struct RecordedSample {
 
 struct Recording {
   std::string name;                     // path it was read from
+  std::optional<TrackerMeasures> measures;  // of tip_orientation; none: to be found from the data
   bool absolute = false;                // pressures are absolute; see gaugePressures()
   std::vector<RecordedSample> samples;  // in order of time, never empty
   std::vector<std::string> warnings;    // "line N: reason" for every line left out, and for ignored columns
