@@ -18,9 +18,10 @@ class OutputBag {
   // Without finish() the file is removed.
   ~OutputBag();
 
+  // topic: with or without a leading slash; it is written with one, as rosbag record does.
   template <class Message>
   void write(const std::string& topic, const ros::Time& time, const Message& message) {
-    guard([&] { bag_->write(topic, time, message); });
+    guard([&] { bag_->write(topic.front() == '/' ? topic : "/" + topic, time, message); });
   }
   // Call when all has been written: closes the bag and gives it its name.
   void finish();

@@ -1,106 +1,134 @@
 #include "bags/recorded_bag.h"
 
 #include <algorithm>
+#include <fstream>
 #include <map>
 #include <optional>
 
 #include "live_stiffness/checks.h"
+#include "parameter_reader.h"
+#include "ros/pressure_input.h"
+#include "ros/tracker_input.h"
 
 namespace live_stiffness {
 namespace {
 
-// Values of the three topics by their stamps.
+struct Seen {
+  Pose X_AS;
+  double unchanged_for = 0.0;  // s
+};
+
+// What can be used of the topics, by its stamps.
 class Tracks : public BagListener {
  public:
-  void onPressures(const Parsed<Pressures>& reading, const ros::Time& recorded) override {
-    if (reading.ok() && reading.value.size() == 0) leaveOut("no pressures in the message");
-    else keep(reading, reading.value, recorded, pressures);
+  Tracks(const InputParameters& parameters, const Scene* scene)
+      : parameters_(parameters), pressure_input(parameters, scene), tracker_input(parameters, registration_) {}
+
+  void onPressures(const topic_tools::ShapeShifter& message) override { keep(pressure_input.read(message, "")); }
+  void onChannelPressure(const sensor_msgs::FluidPressure& message, size_t channel) override {
+    keep(pressure_input.readChannel(message, channel));
   }
-  void onPose(const Parsed<TrackedPose>& reading, const ros::Time& recorded) override {
-    keep(reading, reading.value.pose, recorded, poses);
+  void onPose(const topic_tools::ShapeShifter& message) override { keep(tracker_input.read(message)); }
+  void onTf(const tf2_msgs::TFMessage& transforms, bool is_static) override {
+    keep(tracker_input.read(transforms, is_static));
   }
-  void onWrench(const Parsed<geometry_msgs::WrenchStamped>& message, const ros::Time& recorded) override {
-    if (!message.ok()) return leaveOut(message.error);
-    const FrameNames own{withoutSlash(message.value.header.frame_id), ""};  // a recording keeps the sensor's axes
-    const Parsed<Wrench> reading = readWrench(message.value, own, nullptr);
-    keep(reading, reading.value, recorded, wrenches);
+  void onWrench(const geometry_msgs::WrenchStamped& message) override {
+    const std::string frame = withoutSlash(message.header.frame_id);
+    if (wrenches.empty()) wrench_frame = frame;
+    const Parsed<Wrench> reading = readWrench(message, {wrench_frame, ""}, nullptr);  // a recording keeps the sensor's axes
+    if (!reading.ok()) return wrench_status.reject(reading.error);
+    if (const auto stamp = wrench_status.accept(reading.stamp)) wrenches[stamp->toSec()] = reading.value;
+  }
+  void onHeartbeat() override {
+    pressure_input.status().checkClock();
+    tracker_input.status().checkClock();
+  }
+  void onForeign(const std::string& topic, const std::string& type) override {
+    wrench_status.reject(topic + " has messages of type " + type);
   }
 
-  std::map<double, Pressures> pressures;
-  std::map<double, Pose> poses;
+  std::map<double, Pressures> pressures;  // of channels; empty: not known from then on
+  std::map<double, Seen> poses;
   std::map<double, Wrench> wrenches;
-  int unusable = 0;
-  std::string fault;  // of the first unusable one
+  std::string wrench_frame;
 
  private:
-  void leaveOut(const std::string& why) {
-    if (unusable++ == 0) fault = why;
+  const InputParameters& parameters_;
+  const Registration registration_;  // not known
+
+ public:
+  PressureInput pressure_input;
+  TrackerInput tracker_input;
+  InputStatus wrench_status{"tip_force_torque"};
+
+ private:
+  void keep(const std::optional<Parsed<Pressures>>& read) {
+    if (read) pressures[read->stamp.toSec()] = read->value;
+    else if (!pressure_input.status().error().empty() && !pressures.empty())
+      pressures[std::max(ros::Time::now().toSec(), pressures.rbegin()->first)] = Pressures();
   }
-  template <class Value, class Result>
-  void keep(const Parsed<Value>& reading, const Result& result, const ros::Time& recorded, std::map<double, Result>& track) {
-    if (!reading.ok()) return leaveOut(reading.error);
-    track[(reading.stamp.isZero() ? recorded : reading.stamp).toSec()] = result;
+  void keep(const std::optional<Parsed<Pose>>& read) {
+    if (read) poses[read->stamp.toSec()] = {read->value, tracker_input.unchangedFor()};
   }
 };
 
+// The newest value at a time that is not older than this; nullptr if there is none.
 template <class Value>
-std::optional<Value> newest(const std::map<double, Value>& track, double time) {
+const Value* newest(const std::map<double, Value>& track, double time, double oldest) {
   auto after = track.upper_bound(time);
-  if (after == track.begin()) return std::nullopt;
-  return std::prev(after)->second;
-}
-
-// Detects numbers that no robot has, since wrong units would otherwise only show as a strange failure of a fit.
-void warnOfUnits(Recording& recording) {
-  constexpr double kFarthest = 5.0;       // m, that a tip moves
-  constexpr double kLeastPressure = 1e3;  // Pa, of a session in which the robot moves
-  double motion = 0.0, pressure = 0.0;
-  for (const RecordedSample& sample : recording.samples) {
-    motion = std::max(motion, (sample.tip_position - recording.samples.front().tip_position).norm());
-    pressure = std::max(pressure, sample.pressures.cwiseAbs().maxCoeff());
-  }
-  if (motion > kFarthest)
-    recording.warnings.push_back("the tip moves by " + numberText(motion) + " m: millimetres? (--position-unit mm)");
-  if (pressure > 0.0 && pressure < kLeastPressure)
-    recording.warnings.push_back("no pressure is above " + numberText(pressure) + " Pa: another unit? (--pressure-unit)");
+  if (after == track.begin() || time - std::prev(after)->first > oldest) return nullptr;
+  return &std::prev(after)->second;
 }
 
 }  // namespace
 
-Recording loadRecordedBag(const std::string& path, const BagFormat& format) {
-  Tracks tracks;
-  readBag(path, format, tracks);
+bool isBag(const std::string& path) {
+  char head[7] = {};
+  std::ifstream(path, std::ios::binary).read(head, sizeof head);
+  return std::string(head, sizeof head) == "#ROSBAG";
+}
+
+Recording loadRecordedBags(const std::vector<std::string>& paths, const BagTopics& topics, const InputParameters& parameters,
+                           const Scene* scene) {
+  constexpr double kHeartbeat = 1.0, kForever = 1e9;  // s
+  Tracks tracks(parameters, scene);
+  playBags(paths, topics, parameters, kHeartbeat, tracks);
   Recording recording;
-  recording.name = path;
-  int early = 0;
-  for (const auto& [time, pose] : tracks.poses) {
-    const std::optional<Pressures> pressures = newest(tracks.pressures, time);
-    if (!pressures || (!recording.samples.empty() && pressures->size() != recording.samples.front().pressures.size())) {
-      ++early;
+  recording.name = oneLine(paths);
+  recording.measures = tracks.tracker_input.knownMeasures();
+  recording.wrench_frame = tracks.wrench_frame;
+  const double wrench_timeout = parameters.tip_wrench_timeout > 0.0 ? parameters.tip_wrench_timeout : kForever;
+  long left_out = 0;
+  for (const auto& [time, seen] : tracks.poses) {
+    const Pressures* pressures = newest(tracks.pressures, time, parameters.pressure_timeout);
+    if (pressures == nullptr || pressures->size() == 0) {
+      ++left_out;
       continue;
     }
     RecordedSample sample;
     sample.line = static_cast<int>(recording.samples.size()) + 1;
     sample.time = time - tracks.poses.begin()->first;
     sample.pressures = *pressures;
-    sample.tip_position = pose.p;
-    sample.tip_orientation = Eigen::Quaterniond(pose.R);
+    sample.tip_position = seen.X_AS.p;
+    sample.tip_orientation = Eigen::Quaterniond(seen.X_AS.R);
     if (!recording.samples.empty() && sample.tip_orientation.dot(recording.samples.back().tip_orientation) < 0.0)
       sample.tip_orientation.coeffs() = -sample.tip_orientation.coeffs();
-    sample.tip_wrench = newest(tracks.wrenches, time);
+    sample.unchanged_for = seen.unchanged_for;
+    if (const Wrench* wrench = newest(tracks.wrenches, time, wrench_timeout)) sample.tip_wrench = *wrench;
     recording.samples.push_back(std::move(sample));
   }
-  if (tracks.unusable > 0)
-    recording.warnings.push_back(std::to_string(tracks.unusable) + " messages left out, the first because: " +
-                                 tracks.fault);
-  if (early > 0)
-    recording.warnings.push_back(std::to_string(early) + " poses left out: no pressures before them, or of another "
-                                 "number");
+  std::vector<std::string>& warnings = recording.warnings;
+  for (const auto& lines : {tracks.pressure_input.status().report(), tracks.tracker_input.report(), tracks.wrench_status.report()})
+    warnings.insert(warnings.end(), lines.begin(), lines.end());
+  if (left_out > 0)
+    warnings.push_back(std::to_string(left_out) + " poses left out: no usable pressures in the " +
+                       numberText(parameters.pressure_timeout) + " s before them");
   if (recording.samples.empty())
-    throw ConfigurationError(
-        "bag " + path, {"no pose on " + format.pose_topic + " with pressures on " + format.pressure_topic + " before it" +
-                        (tracks.unusable > 0 ? ": " + tracks.fault : "; see rosbag info, and --pressures and --pose")});
-  warnOfUnits(recording);
+    throw ConfigurationError("bag " + recording.name,
+                             {"no pose on " + topics.pose + " with pressures on " + topics.pressures + " before it" +
+                              (warnings.empty() ? "; see rosbag info, and --pressures and --pose" : ": " + oneLine(warnings))});
+  const std::string doubt = tracks.pressure_input.doubt();
+  if (!doubt.empty()) warnings.push_back(doubt);
   return recording;
 }
 

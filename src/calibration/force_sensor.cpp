@@ -23,6 +23,7 @@ constexpr Prior kPriors[] = {
 }  // namespace
 
 Wrench ForceSensorMount::atTip(const Wrench& reading, const Matrix3& R_BT) const {
+  if (in_base_axes) return (sign * gains).cwiseProduct(reading);
   Wrench counted = reading;
   counted.head<2>() -= reading[2] * crosstalk;
   const Pose X_TF{expSo3(Vector3(0.0, 0.0, azimuth)), Vector3(0.0, 0.0, height)};
@@ -30,6 +31,7 @@ Wrench ForceSensorMount::atTip(const Wrench& reading, const Matrix3& R_BT) const
 }
 
 Matrix3 ForceSensorMount::seen(const Matrix3& R_BT) const {
+  if (in_base_axes) return Vector3(linear(gains)).asDiagonal();
   const Matrix3 R_BF = R_BT * expSo3(Vector3(0.0, 0.0, azimuth));
   return R_BF * Vector3(linear(gains)).asDiagonal() * R_BF.transpose();
 }

@@ -31,6 +31,7 @@ struct ForceSensorMount {
   Wrench gains = Wrench::Ones();  // of its channels [f; m], own axes; 0: that channel is left out
   // Shares of fz that appear in fx and fy, by crosstalk or because its axis is tilted; they are subtracted, -.
   Eigen::Vector2d crosstalk = Eigen::Vector2d::Zero();
+  bool in_base_axes = false;  // it reports the wrench at T in base axes: azimuth, height and crosstalk mean nothing
   double delay = 0.0;      // s by which its readings are later than the pressures
 
   template <class Mount, class Visit>

@@ -18,6 +18,7 @@
 #include "part_file.h"
 #include "live_stiffness/rod/scene_file.h"
 #include "recording_reader.h"
+#include "sample_options.h"
 #include "progress_bar.h"
 
 namespace po = boost::program_options;
@@ -46,7 +47,7 @@ struct Arguments {
 po::options_description describe(Arguments& a) {
   po::options_description options = helpOption();
   a.force_sensor.addTo(options);
-  a.reader.addOptionsTo(options);
+  a.reader.addOptionsTo(options, false);
   options.add_options()
     ("scene", po::value(&a.scene)->required(), "scene file; its values are the start and the priors' means")
     ("recordings", po::value(&a.recordings)->composing(), "CSV recordings (or bags)")
@@ -108,9 +109,9 @@ std::optional<LoadedSamples> loadsNamed(const std::string& name) {
   return std::nullopt;
 }
 
-ChannelMap channelsFor(const Arguments& a, const std::vector<CalibrationRecording>& recordings, int chambers) {
-  if (a.channels > 0) return ChannelMap::even(a.channels, chambers);
-  return ChannelMap::even(recordings.empty() ? chambers : recordings.front().recording.channelCount(), chambers);
+ChannelMap channelsFor(const Arguments& a, const std::vector<CalibrationRecording>& recordings, const Scene& scene) {
+  if (a.channels > 0) return a.reader.channels(a.channels, scene);
+  return a.reader.channels(recordings.empty() ? scene.chamberCount() : recordings.front().recording.channelCount(), scene);
 }
 
 int run(const Arguments& a, const std::string& command) {
@@ -139,10 +140,10 @@ int run(const Arguments& a, const std::string& command) {
 
   std::vector<CalibrationRecording> recordings;
   for (const std::string& path : a.recordings) {
-    Recording recording = withTrackerDelay(a.reader.load(path), a.tracker_delay);
+    Recording recording = withTrackerDelay(a.reader.load(path, &scene), a.tracker_delay);
     recordings.emplace_back(std::move(recording), samples, *loads);
   }
-  const ChannelMap channels = channelsFor(a, recordings, scene.chamberCount());
+  const ChannelMap channels = channelsFor(a, recordings, scene);
   std::vector<SceneParameter> parameters;
   bool fits_sensor = false;
   const auto named = [&](const std::string& name) {

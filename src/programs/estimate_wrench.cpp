@@ -7,6 +7,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "analysis/scene_description.h"
 #include "command_line.h"
 #include "force_sensor_options.h"
 #include "calibration/calibration.h"
@@ -15,7 +16,6 @@
 #include "live_stiffness/estimation/tip_wrench_estimator.h"
 #include "part_file.h"
 #include "live_stiffness/rod/scene_file.h"
-#include "parameter_options.h"
 #include "recording_reader.h"
 
 namespace po = boost::program_options;
@@ -28,6 +28,33 @@ const char* const kHelp =
     "Writes, per sample: estimated wrench at the tip point T in base axes, its standard deviation, contact, innovation,\n"
     "stiffness scale, and the recorded force (base axes, acting on the robot) if there is one. How well the estimate\n"
     "follows that, and the cost of an update, on standard error.\n\n";
+
+struct WrenchParameters {
+  ModelOptions model;
+  TipWrenchOptions contact;
+  std::string model_name = kModel.standard, stepping_name = "continuous";
+};
+
+template <class Parameters, class Visit>
+void forEachParameter(Parameters& parameters, Visit visit) {
+  visit(kModel, parameters.model_name);
+  visit(kStepping, parameters.stepping_name);
+  ModelOptions::forEachParameter(parameters.model, visit);
+  TipWrenchOptions::forEachParameter(parameters.contact, visit);
+}
+
+WrenchParameters wrenchParameters(const YAML::Node& values) {
+  FaultList faults("options");
+  ParameterReader read(values, faults);
+  WrenchParameters parameters;
+  forEachParameter(parameters, read);
+  faults.checkAll(parameters.contact);
+  parameters.contact.checkComponents(faults);
+  parameters.model = namedModelOptions(parameters.model_name, parameters.stepping_name, faults, parameters.model);
+  faults.checkAll(parameters.model);
+  faults.throwIfAny();
+  return parameters;
+}
 
 void writeHeader(std::ostream& out) {
   out << "time_s";
@@ -59,32 +86,35 @@ void writeRow(std::ostream& out, double time, const TipWrenchEstimator& estimato
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string scene_path, recording_path, registration_path, output, score_path;
+  std::string scene_path, registration_path, output, score_path;
+  std::vector<std::string> recording_paths;
   ForceSensorOptions force_sensor;
   RecordingReader reader;
-  TipWrenchOptions filter;
   po::options_description options = helpOption();
   options.add_options()
     ("scene", po::value(&scene_path)->required(), "scene of the recorded robot")
-    ("recording", po::value(&recording_path)->required(), "CSV recording, or a bag")
+    ("recording", po::value(&recording_paths)->required(), "CSV recording, or the bags of one")
     ("registration", po::value(&registration_path)->required(), "registration file, as register_recording writes it")
     ("output,o", po::value(&output), "CSV file to write (standard output)")
     ("score", po::value(&score_path), "CSV file to write how well the estimate follows the recorded force: quantity,value");
-  addOptions(options, filter);
   force_sensor.addTo(options);
   reader.addOptionsTo(options);
-  return runProgram({argv, argv + argc}, kHelp, options, {{"scene", 1}, {"recording", 1}}, [&](const po::variables_map&) {
-    const ForceSensorMount mount = force_sensor.mount();
-    const Recording recorded = reader.load(recording_path);
+  reader.options().add<WrenchParameters>(options, [](auto& fields, auto visit) { forEachParameter(fields, visit); });
+  return runProgram({argv, argv + argc}, kHelp, options, {{"scene", 1}, {"recording", -1}}, [&](const po::variables_map& given) {
+    reader.configure(given);
+    const WrenchParameters parameters = wrenchParameters(reader.values());
     const Scene scene = loadSceneFile(scene_path);
+    for (const std::string& doubt : doubtsAbout(scene)) std::cerr << scene_path << ": " << doubt << "\n";
+    const Recording recorded = reader.load(recording_paths, &scene);
+    const ForceSensorMount mount = force_sensor.mountFor(recorded.wrench_frame, reader.parameters().frames);
     const Registration registration = loadRegistrationFile(registration_path);
     const Recording recording = withTrackerDelay(recorded, registration.tracker_delay);
     const ForceReadings readings(recording);
-    const ChannelMap channels = ChannelMap::even(recording.channelCount(), scene.chamberCount());
+    const ChannelMap channels = reader.channels(recording, scene);
     const std::vector<Pressures> gauge = gaugePressures(recording);
-    ModelOptions model;
-    model.stepping = Stepping::kContinuous;
-    TipWrenchEstimator estimator(scene, model, filter);
+    TipWrenchEstimator estimator(scene, parameters.model, parameters.contact);
+    StiffnessWorkspace workspace = estimator.model().makeWorkspace();
+    const Pose at_rest = estimator.model().solve(Pressures::Zero(scene.chamberCount()), Wrench::Zero(), workspace).X_BT;
     std::ostringstream out;
     out.precision(6);
     writeHeader(out);
@@ -92,10 +122,13 @@ int main(int argc, char** argv) {
     std::vector<ContactSample> scored;
     for (size_t i = 0; i < recording.samples.size(); ++i) {
       const RecordedSample& sample = recording.samples[i];
-      const Pose X_BT = registration.tipPose(sample.tipPose());
+      const Pose expected = estimator.estimate() != nullptr ? estimator.estimate()->X_BT : at_rest;
+      const Pose X_BT = registration.tipPose(
+          completedPose(sample.tipPose(), registration.sensorPose(expected), recording.measures.value_or(TrackerMeasures::kPose)));
       const Pressures chambers = channels.expand(gauge[i]);
       const auto start = std::chrono::steady_clock::now();
-      estimator.update(chambers, X_BT, sample.time);
+      if (sample.unchanged_for > reader.parameters().pose_timeout) estimator.predict(chambers, sample.time);  // lost sensor
+      else estimator.update(chambers, X_BT, sample.time);
       microseconds.push_back(1e6 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
       std::optional<Wrench> measured;
       if (sample.tip_wrench) measured = readings.atTip(mount, sample.time, X_BT.R);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "calibration/force_sensor.h"
+#include "estimation/input_parameters.h"
 #include "parameter_options.h"
 
 namespace live_stiffness {
@@ -18,6 +19,8 @@ class ForceSensorOptions {
     addOptions(options, mount_);
     options.add_options()
       ("force-sensor-sign", value(&mount_.sign)->default_value(1.0), "1: reports what acts on the robot; -1: the opposite")
+      ("force-sensor-frame", value(&frame_),
+       "frame_id of its messages, if that is no frame that the package knows: its axes are turned as the azimuth says")
       ("force-sensor-channels", value(&channels_)->multitoken(),
        "its channels to use, of fx fy fz mx my mz in its own axes (all); the others count as zero");
   }
@@ -39,6 +42,17 @@ class ForceSensorOptions {
     return mount;
   }
 
+  // The mount for a recording whose wrenches have this frame_id. Throws ConfigurationError, too, if the axes are not known.
+  ForceSensorMount mountFor(const std::string& frame, const FrameNames& frames) const {
+    ForceSensorMount found = mount();
+    found.in_base_axes = frame == frames.base;
+    if (!frame.empty() && frame != frames.base && frame != frames.body && frame != "tip_force_sensor" && frame != frame_)
+      throw ConfigurationError("force sensor", {"unknown frame " + frame + ": must be " + frames.base + ", " + frames.body +
+                                                " or tip_force_sensor, or be told by --force-sensor-frame " + frame +
+                                                " with the azimuth of its axes"});
+    return found;
+  }
+
   // A mount as such options, for example the result of a calibration.
   static std::string text(const ForceSensorMount& mount) {
     std::string text = "--force-sensor-sign " + numberText(mount.sign), channels;
@@ -55,6 +69,7 @@ class ForceSensorOptions {
 
   ForceSensorMount mount_;
   std::vector<std::string> channels_;
+  std::string frame_;
 };
 
 }  // namespace live_stiffness

@@ -16,7 +16,8 @@
 #include "programs/parallel_markers.h"
 #include "ros/any_type_subscriber.h"
 #include "ros/node_process.h"
-#include "ros/parameter_reader.h"
+#include "ros/node_parameters.h"
+#include "parameter_reader.h"
 #include "ros/pose_output.h"
 #include "ros/shared_diagnostics.h"
 #include "ros/wrench_input.h"
@@ -55,11 +56,11 @@ struct ParallelParameters {
 // Reads and validates all of them. Throws ConfigurationError with every fault. Warns of unknown ones.
 ParallelParameters loadParallelParameters(const ros::NodeHandle& private_node) {
   FaultList faults("parameters of " + private_node.getNamespace(), "~");
-  ParameterReader read(private_node, faults);
+  ParameterReader read(privateParameters(private_node), faults);
   ParallelParameters parameters;
   ParallelParameters::forEachParameter(parameters, read);
-  read.file(kSceneFile, loadParallelSceneFile, parameters.scene, true);
-  read.warnOfUnknown("parallel_node");
+  read.file(kSceneFile, loadParallelSceneFile, parameters.scene, "must be the path of a file");
+  warnOfUnknown(read.unknown(), "parallel_node");
   faults.checkAll(parameters);
   checkFrames(parameters.frames, kPlatformFrame, faults);
   faults.throwIfAny();
@@ -170,7 +171,7 @@ class ParallelNode {
   void addDiagnostics() {
     diagnostics_.add("Rod lengths", [this](Status& status) {
       const Lock lock(mutex_);
-      length_status_.diagnose(estimator_.statusText(), status);
+      length_status_.diagnose(estimator_.statusText(), "", "", status);
     });
     diagnostics_.add("Solver", [this](Status& status) {
       const Lock lock(mutex_);

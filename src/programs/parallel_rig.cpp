@@ -9,7 +9,8 @@
 #include "live_stiffness/parallel/parallel_scene_file.h"
 #include "parallel/parameters.h"
 #include "ros/node_process.h"
-#include "ros/parameter_reader.h"
+#include "ros/node_parameters.h"
+#include "parameter_reader.h"
 
 namespace {
 
@@ -46,11 +47,11 @@ class ParallelRig {
  private:
   static ParallelScene load(const ros::NodeHandle& private_node, Motion& motion) {
     FaultList faults("parameters of " + private_node.getNamespace(), "~");
-    ParameterReader read(private_node, faults);
+    ParameterReader read(privateParameters(private_node), faults);
     ParallelScene scene;
-    read.file(kSceneFile, loadParallelSceneFile, scene, true);
+    read.file(kSceneFile, loadParallelSceneFile, scene, "must be the path of a file");
     Motion::forEachParameter(motion, read);
-    read.warnOfUnknown("parallel_rig");
+    warnOfUnknown(read.unknown(), "parallel_rig");
     faults.checkAll(motion);
     faults.throwIfAny();
     return scene;

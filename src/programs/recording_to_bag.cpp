@@ -7,10 +7,10 @@
 #include "live_stiffness/estimation/recording.h"
 #include "live_stiffness/estimation/registration_fit.h"
 #include "live_stiffness/rod/scene_file.h"
-#include "bags/bag_reader.h"
 #include "bags/output_bag.h"
-#include "live_stiffness/section/channel_map.h"
 #include "progress_bar.h"
+#include "recording_reader.h"
+#include "ros/conversions.h"
 
 namespace po = boost::program_options;
 using namespace live_stiffness;
@@ -18,26 +18,26 @@ using namespace live_stiffness;
 namespace {
 
 void writeBag(const Recording& recording, const std::vector<Pressures>& channels, const std::string& path) {
-  const BagFormat format;
+  const BagTopics topics;
   OutputBag bag(path);
   ProgressBar progress("writing " + path, static_cast<long>(recording.samples.size()));
   const double start = recording.samples.front().time;
   for (size_t i = 0; i < recording.samples.size(); ++i) {
     const RecordedSample& sample = recording.samples[i];
     const ros::Time stamp = bagTime(sample.time - start);
-    bag.write(format.pressure_topic, stamp, toPressures(channels[i], stamp));
-    bag.write(format.pose_topic, stamp, toPoseStamped(sample.tipPose(), stamp, kTrackerFrame.standard));
-    if (sample.tip_wrench) bag.write(format.wrench_topic, stamp, toWrenchStamped(*sample.tip_wrench, stamp, kForceSensorFrame));
+    bag.write(topics.pressures, stamp, toPressures(channels[i], stamp));
+    bag.write(topics.pose, stamp, toPoseStamped(sample.tipPose(), stamp, kTrackerFrame.standard));
+    if (sample.tip_wrench) bag.write(topics.wrench, stamp, toWrenchStamped(*sample.tip_wrench, stamp, kForceSensorFrame));
     progress.update(static_cast<long>(i) + 1);
   }
   bag.finish();
 }
 
 // Fits where base and sensor are from the whole recording, and says how well the model then agrees.
-void registerRecording(const Recording& recording, const std::vector<Pressures>& channels,
+void registerRecording(const Recording& recording, const std::vector<Pressures>& channels, const RecordingReader& reader,
                        const std::string& scene_path, const std::string& registration_path) {
   const StiffnessModel model(loadSceneFile(scene_path), ModelOptions());
-  const ChannelMap map = ChannelMap::even(recording.channelCount(), model.scene().chamberCount());
+  const ChannelMap map = reader.channels(recording, model.scene());
   StiffnessWorkspace workspace = model.makeWorkspace();
   std::vector<Pose> predicted, measured;
   ProgressBar progress("solving " + recording.name, static_cast<long>(channels.size()));
@@ -67,21 +67,23 @@ const char* const kHelp =
 
 int main(int argc, char** argv) {
   std::string recording_path, bag_path, scene_path, registration_path;
+  RecordingReader reader;
   po::options_description options = helpOption();
+  reader.addOptionsTo(options);
   options.add_options()
-    ("recording", po::value(&recording_path)->required(), "CSV recording")
+    ("recording", po::value(&recording_path)->required(), "CSV recording, or a bag with other topics and units")
     ("bag", po::value(&bag_path)->required(), "bag to write")
     ("scene", po::value(&scene_path), "scene of the recorded robot, for --registration")
     ("registration", po::value(&registration_path), "also fit base and sensor to the recording and write them here");
   return runProgram({argv, argv + argc}, kHelp, options, {{"recording", 1}, {"bag", 1}},
                     [&](const po::variables_map& values) {
+    reader.configure(values);
     if (values.count("scene") != values.count("registration"))
       throw ConfigurationError("options", {"--scene and --registration belong together: give both or none"});
-    const Recording recording = loadRecording(recording_path);
-    for (const std::string& warning : recording.warnings) std::cerr << recording_path << ": " << warning << '\n';
+    const Recording recording = reader.load(recording_path);
     const std::vector<Pressures> channels = gaugePressures(recording);
     writeBag(recording, channels, bag_path);
-    if (!scene_path.empty()) registerRecording(recording, channels, scene_path, registration_path);
+    if (!scene_path.empty()) registerRecording(recording, channels, reader, scene_path, registration_path);
     return kExitOk;
   });
 }

@@ -3,6 +3,7 @@
 
 #include <iostream>
 
+#include "analysis/scene_description.h"
 #include "command_line.h"
 #include "calibration/calibration.h"
 #include "calibration/calibration_report.h"
@@ -10,6 +11,7 @@
 #include "estimation/tracker_delay.h"
 #include "live_stiffness/rod/scene_file.h"
 #include "recording_reader.h"
+#include "sample_options.h"
 
 namespace po = boost::program_options;
 using namespace live_stiffness;
@@ -47,7 +49,8 @@ int main(int argc, char** argv) {
     ("fit-delay", po::bool_switch(&fit_delay), "fit that delay too, to the samples in motion");
   reader.addOptionsTo(options);
   return runProgram({argv, argv + argc}, kHelp, options, {{"scene", 1}, {"recording", 1}, {"output", 1}},
-                    [&](const po::variables_map&) {
+                    [&](const po::variables_map& given) {
+    reader.configure(given);
     FaultList faults("options");
     faults.check("tracker-delay-s", tracker_delay, {-Registration::kLargestDelay, Registration::kLargestDelay});
     const SampleChoice choice = sampleChoice(samples, faults);
@@ -56,8 +59,9 @@ int main(int argc, char** argv) {
     fit_options.model.stepping = Stepping::kContinuous;
     if (no_orientation) fit_options.rotation_sigma = 0.0;
     const Scene scene = loadSceneFile(scene_path);
-    const Recording recording = reader.load(recording_path);
-    const ChannelMap channels = ChannelMap::even(recording.channelCount(), scene.chamberCount());
+    for (const std::string& doubt : doubtsAbout(scene)) std::cerr << scene_path << ": " << doubt << "\n";
+    const Recording recording = reader.load(recording_path, &scene);
+    const ChannelMap channels = reader.channels(recording, scene);
     const auto registered = [&](double delay) {
       const CalibrationRecording data(withTrackerDelay(recording, delay), choice, LoadedSamples::kIgnore);
       return calibrate(scene, channels, {}, {data}, {}, fit_options);

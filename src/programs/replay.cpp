@@ -1,16 +1,15 @@
-// replay BAG: a recorded bag through the estimator without a master, as fast as it goes.
-
-#include <ros/package.h>
+// replay BAG...: a recorded bag through what the node runs, without a master, as fast as it goes.
 
 #include <filesystem>
 #include <iostream>
+#include <memory>
 
-#include "command_line.h"
-#include "bag_options.h"
-#include "part_file.h"
-#include "live_stiffness/rod/scene_file.h"
+#include "analysis/scene_description.h"
+#include "bag_topics_options.h"
 #include "bags/bag_replay.h"
-#include "parameter_options.h"
+#include "command_line.h"
+#include "input_options.h"
+#include "part_file.h"
 #include "progress_bar.h"
 
 namespace po = boost::program_options;
@@ -19,52 +18,43 @@ using namespace live_stiffness;
 namespace {
 
 const char* const kHelp =
-    "replay BAG [--scene SCENE.yaml] [options]\n\nWrites what stiffness_node would have published to a new "
-    "bag, and prints a report.\n\n";
+    "replay BAG... --scene SCENE.yaml [--registration FILE] [--parameters NODE.yaml] [options]\n\n"
+    "Writes to a new bag what stiffness_node would have published, and prints a report. Several bags are the parts of one\n"
+    "recording. Without --scene it takes the scene of --parameters.\n\n";
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string bag, out, scene, registration, report_path, model = kModel.standard;
-  ModelOptions model_options;
-  ReplayOptions replay;
-  BagOptions bag_options(replay.format);
+  std::vector<std::string> bags;
+  std::string out, report_path;
+  BagTopics topics;
+  topics.wrench = "tip_wrench";
+  InputOptions parameter_options;
   po::options_description options = helpOption();
   options.add_options()
-    ("bag", po::value(&bag)->required(), "bag to read")
-    ("scene", po::value(&scene), "scene file of the robot (default: the package's paper_one_segment.yaml)")
-    ("registration", po::value(&registration), "registration file (default: identity)")
-    ("output,o", po::value(&out), "bag to write (default: BAG with .estimates.bag)")
-    ("report", po::value(&report_path), "also write the report here, as Markdown")
-    ("channel-of-chamber", po::value(&replay.channel_of_chamber)->multitoken(),
-     "channel of each chamber, such as 0 0 1 1 2 2 (default: the bag's channels feed neighbours evenly)");
-  addOption(options, kModel, model);
-  addOption(options, kAccuracy, model_options.accuracy);
-  addOption(options, kUpdateThreshold, replay.estimator.update_threshold);
-  bag_options.addTo(options);
-  return runProgram({argv, argv + argc}, kHelp, options, {{"bag", 1}}, [&](const po::variables_map&) {
-    FaultList faults("options");
-    model_options = namedModelOptions(model, "", faults, model_options);
-    faults.checkAll(model_options);
-    faults.checkAll(replay.estimator);
-    replay.format = bag_options.format(faults);
-    faults.check(kChannelOfChamber, replay.channel_of_chamber);
-    faults.throwIfAny();
-    if (!registration.empty()) replay.registration = loadRegistrationFile(registration);
-    if (scene.empty()) {
-      const std::string package = ros::package::getPath("live_stiffness");
-      if (package.empty()) throw ConfigurationError("--scene", {"must be given: rospack does not find live_stiffness"});
-      scene = package + "/config/scenes/paper_one_segment.yaml";
-    }
-    if (out.empty()) out = std::filesystem::path(bag).replace_extension(".estimates.bag").string();
+    ("bag", po::value(&bags)->required(), "bags to read")
+    ("output,o", po::value(&out), "bag to write (default: the first BAG with .estimates.bag)")
+    ("report", po::value(&report_path), "also write the report here, as Markdown");
+  addOptions(options, topics);
+  parameter_options.addFile(options);
+  parameter_options.add(options, kSceneFile);
+  parameter_options.add(options, kRegistrationFile);
+  parameter_options.add<NodeParameters>(options, [](auto& parameters, auto visit) {
+    NodeParameters::forEachOfModel(parameters, visit);
+    InputParameters::forEachParameter(parameters, visit);
+  });
+  return runProgram({argv, argv + argc}, kHelp, options, {{"bag", -1}}, [&](const po::variables_map& given) {
+    std::vector<std::string> unknown;
+    const NodeParameters parameters =
+        readNodeParameters(parameter_options.values(given, InputOptions::file(given)), "options", "", unknown);
+    for (const std::string& doubt : doubtsAbout(parameters.scene)) std::cerr << "scene: " << doubt << "\n";
+    if (out.empty()) out = std::filesystem::path(bags.front()).replace_extension(".estimates.bag").string();
     std::unique_ptr<ProgressBar> bar;
-    const ReplayReport report =
-        replayBag(bag, out, loadSceneFile(scene), model_options, replay, [&](long done, long total) {
-          if (!bar) bar = std::make_unique<ProgressBar>("replaying " + bag, total);
-          bar->update(done);
-        });
-    std::cout << "scene: " << scene << "\n\n";
-    const std::string text = report.text(bag, model_options.accuracy);
+    const ReplayReport report = replayBags(bags, out, parameters, topics, [&](long done, long total) {
+      if (!bar) bar = std::make_unique<ProgressBar>("replaying " + bags.front(), total);
+      bar->update(done);
+    });
+    const std::string text = report.text(oneLine(bags), parameters);
     std::cout << text << "\nestimates: " << out << "\n";
     if (!report_path.empty()) writeTextFile("report", report_path, text);
     return kExitOk;

@@ -7,7 +7,8 @@
 #include "rig/rig_model.h"
 #include "ros/conversions.h"
 #include "ros/node_process.h"
-#include "ros/parameter_reader.h"
+#include "ros/node_parameters.h"
+#include "parameter_reader.h"
 
 namespace {
 
@@ -33,7 +34,7 @@ Vector3 readVector3(ParameterReader& read, const NumbersParameter& parameter, Fa
 // Reads and validates all of them. Throws ConfigurationError with every fault. Warns of unknown ones.
 RigParameters loadRigParameters(const ros::NodeHandle& private_node) {
   FaultList faults("parameters of " + private_node.getNamespace(), "~");
-  ParameterReader read(private_node, faults);
+  ParameterReader read(privateParameters(private_node), faults);
   RigParameters parameters;
   RigOptions& options = parameters.options;
   RigOptions::forEachParameter(options, read);
@@ -41,9 +42,9 @@ RigParameters loadRigParameters(const ros::NodeHandle& private_node) {
   read(kSampleRate, parameters.rate);
   read(kRigTrackerFrame, parameters.tracker_frame);
   read(kRigBaseFrame, parameters.base_frame);
-  read.file(kSceneFile, loadSceneFile, parameters.scene, true);
+  read.file(kSceneFile, loadSceneFile, parameters.scene, "must be the path of a file");
   read.file(kRigRegistrationFile, loadRegistrationFile, options.registration);
-  read.warnOfUnknown("rig_simulator");
+  warnOfUnknown(read.unknown(), "rig_simulator");
   faults.check(kSampleRate, parameters.rate);
   faults.checkAll(options);
   options.contact.check(faults);

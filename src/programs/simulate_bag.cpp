@@ -56,17 +56,17 @@ int main(int argc, char** argv) {
     if (channels > 0) rig_options.channel_of_chamber = ChannelMap::even(channels, scene.chamberCount()).channelOfChamber();
     if (!registration_path.empty()) rig_options.registration = loadRegistrationFile(registration_path);
     RigModel rig(scene, rig_options);
-    const BagFormat format;
+    const BagTopics topics;
     OutputBag bag(bag_path);
     const long samples = static_cast<long>(seconds * rate);
     ProgressBar progress("simulating " + bag_path, samples);
     for (long i = 0; i < samples; ++i) {
       const RigSample sample = rig.step(i / rate);
       const ros::Time stamp = bagTime(sample.time);
-      bag.write(format.pressure_topic, stamp, toPressures(sample.measured_channels, stamp));
-      if (sample.X_AS) bag.write(format.pose_topic, stamp, toPoseStamped(*sample.X_AS, stamp, kTrackerFrame.standard));
+      bag.write(topics.pressures, stamp, toPressures(sample.measured_channels, stamp));
+      if (sample.X_AS) bag.write(topics.pose, stamp, toPoseStamped(*sample.X_AS, stamp, kTrackerFrame.standard));
       if (!push_n.empty())
-        bag.write(format.wrench_topic, stamp, toWrenchStamped(sample.sensedContact(), stamp, kForceSensorFrame));
+        bag.write(topics.wrench, stamp, toWrenchStamped(sample.sensedContact(), stamp, kForceSensorFrame));
       progress.update(i + 1);
     }
     bag.finish();

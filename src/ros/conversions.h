@@ -17,8 +17,8 @@
 
 #include <string>
 
+#include "estimation/input_parameters.h"
 #include "live_stiffness/analysis/deflection.h"
-#include "live_stiffness/parameters.h"
 #include "estimation/registration_buffer.h"
 #include "live_stiffness/estimation/stiffness_estimator.h"
 #include "live_stiffness/estimation/tip_wrench_estimator.h"
@@ -29,26 +29,6 @@ namespace live_stiffness {
 // frame_id of tip_force_torque. Of the simulated rig: at T, with axes of T, in the sense "on the robot".
 constexpr char kForceSensorFrame[] = "tip_force_sensor";
 
-// Unit and reference of a rig's pressures.
-struct PressureFormat {
-  std::string unit = kPressureUnit.standard, reference = kPressureReference.standard;
-  double atmosphere = kAtmosphericPressure.standard;  // subtracted from absolute ones, Pa
-
-  template <class Format, class Visit>
-  static void forEachParameter(Format& format, Visit&& visit) {
-    visit(kPressureUnit, format.unit);
-    visit(kPressureReference, format.reference);
-    visit(kAtmosphericPressure, format.atmosphere);
-  }
-  bool isAbsolute() const { return reference == "absolute"; }
-  double gauge(double value) const;  // Pa
-};
-
-// Pa per unit for Pa, kPa, bar, mbar, psi; 0 for any other name.
-double pascalsPerUnit(const std::string& unit);
-// m per unit for m, mm.
-inline double metresPerUnit(const std::string& unit) { return unit == "mm" ? 1e-3 : 1.0; }
-
 // Gauge pressures (Pa) of all channels from ChamberPressures, std_msgs/Float64MultiArray or Float32MultiArray.
 // Errors: another type, a damaged message, a value that is not finite, a negative absolute pressure.
 Parsed<Pressures> readPressures(const topic_tools::ShapeShifter& message, const PressureFormat& format);
@@ -58,10 +38,10 @@ Parsed<Eigen::VectorXd> readRodLengths(const topic_tools::ShapeShifter& message,
 // Gauge pressure (Pa) of one channel.
 Parsed<double> readPressure(const sensor_msgs::FluidPressure& message, const PressureFormat& format);
 
-// A tracker pose of the sensor in `frame`, which has no leading slash.
+// A tracker pose in `frame`, of the sensor `child` if the message names it. Neither has a leading slash.
 struct TrackedPose {
   Pose pose;
-  std::string frame;
+  std::string frame, child;
 };
 // From PoseStamped, PoseWithCovarianceStamped or TransformStamped; position_unit: m per unit of the message.
 // Errors: another type, a damaged message, values that are not finite, a quaternion far from length 1.
@@ -71,10 +51,6 @@ Parsed<TrackedPose> readPose(const geometry_msgs::TransformStamped& message, dou
 // Errors: as above.
 Parsed<Pose> readPose(const geometry_msgs::Pose& message);
 
-// Frames that a message may refer to: the fixed one and, unless empty, that of the body which the robot moves.
-struct FrameNames {
-  std::string base, body;
-};
 // Rotation from the axes of `frame` to base axes. X_BT: of the body; nullptr: not known yet. Errors: an unknown frame,
 // a pose that is not known yet.
 Parsed<Matrix3> readAxes(const std::string& frame, const FrameNames& frames, const Pose* X_BT);
@@ -84,9 +60,6 @@ Parsed<Wrench> readWrench(const geometry_msgs::WrenchStamped& message, const Fra
 
 // Three numbers. Errors, by `name`: values that are not finite.
 Parsed<Vector3> readVector(const geometry_msgs::Vector3& message, const std::string& name);
-
-// "/aurora" -> "aurora"
-std::string withoutSlash(const std::string& frame);
 
 std_msgs::Header toHeader(const ros::Time& stamp, const std::string& frame);
 geometry_msgs::Point toPoint(const Vector3& p);

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <vector>
 
+#include "parameter_reader.h"
+
 namespace live_stiffness {
 namespace {
 
@@ -139,24 +141,11 @@ Parsed<TrackedPose> checkedPose(const std_msgs::Header& header, const Xyz& p, co
     return failed<TrackedPose>("quaternion has length " + numberText(norm) + ": must be 1");
   Parsed<TrackedPose> parsed;
   parsed.stamp = header.stamp;
-  parsed.value = {{rotation.normalized().toRotationMatrix(), position_unit * position}, withoutSlash(header.frame_id)};
+  parsed.value = {{rotation.normalized().toRotationMatrix(), position_unit * position}, withoutSlash(header.frame_id), ""};
   return parsed;
 }
 
 }  // namespace
-
-double pascalsPerUnit(const std::string& unit) {
-  if (unit == "Pa") return 1.0;
-  if (unit == "kPa") return 1e3;
-  if (unit == "bar") return 1e5;
-  if (unit == "mbar") return 1e2;
-  if (unit == "psi") return 6894.757293168361;
-  return 0.0;
-}
-
-double PressureFormat::gauge(double value) const {
-  return value * pascalsPerUnit(unit) - (isAbsolute() ? atmosphere : 0.0);
-}
 
 Parsed<Pressures> readPressures(const topic_tools::ShapeShifter& message, const PressureFormat& format) {
   Parsed<Pressures> pressures = readArray<ChamberPressures>(message);
@@ -205,7 +194,10 @@ Parsed<TrackedPose> readPose(const topic_tools::ShapeShifter& message, double po
 }
 
 Parsed<TrackedPose> readPose(const geometry_msgs::TransformStamped& message, double position_unit) {
-  return checkedPose(message.header, message.transform.translation, message.transform.rotation, position_unit);
+  Parsed<TrackedPose> parsed =
+      checkedPose(message.header, message.transform.translation, message.transform.rotation, position_unit);
+  parsed.value.child = withoutSlash(message.child_frame_id);
+  return parsed;
 }
 
 Parsed<Pose> readPose(const geometry_msgs::Pose& message) {
@@ -241,10 +233,6 @@ Parsed<Vector3> readVector(const geometry_msgs::Vector3& message, const std::str
     return failed<Vector3>(name + " = [" + numberText(value.x()) + ", " + numberText(value.y()) + ", " +
                            numberText(value.z()) + "]: must be three finite numbers");
   return {ros::Time(), value, ""};
-}
-
-std::string withoutSlash(const std::string& frame) {
-  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
 }
 
 }  // namespace live_stiffness

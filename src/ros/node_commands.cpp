@@ -20,16 +20,9 @@ void StiffnessNode::setParameters(const NodeParameters& parameters, bool keeps_i
   const auto estimator = std::make_shared<StiffnessEstimator>(parameters.scene, parameters.model, parameters.estimator);
   auto contact = std::make_unique<TipWrenchEstimator>(parameters.scene, parameters.model, parameters.contact);
   const std::scoped_lock lock(tracking_mutex_, estimation_mutex_);
-  const bool is_same_robot = parameters.scene.chamberCount() == parameters_.scene.chamberCount();
   parameters_ = parameters;
-  const Pressures pressures = estimator_->pressures();
-  if (keeps_inputs) estimator->setTipWrench(estimator_->tipWrench());
-  estimator_ = estimator;
-  history_.clear();
-  contact_.setEstimator(std::move(contact));
-  pressure_input_.updateChannels();
-  if (!keeps_inputs || !is_same_robot) estimate_stamp_ = ros::Time();
-  else if (pressures.size() > 0) onSolved(estimator_->setPressures(pressures, pressure_stamp_.toSec()));
+  updater_.replaceEstimator(estimator, keeps_inputs);
+  comparison_.replaceFilter(std::move(contact));
 }
 
 bool StiffnessNode::reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
@@ -43,10 +36,9 @@ bool StiffnessNode::reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Respon
 
 bool StiffnessNode::pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
   const Lock lock(estimation_mutex_);
-  is_paused_ = request.data;
-  publishEstimate();
+  updater_.setPaused(request.data);
   response.success = true;
-  response.message = is_paused_ ? "paused: the last estimate is published as stale" : "continues with the next pressures";
+  response.message = request.data ? "paused: the last estimate is published as stale" : "continues with the next pressures";
   ROS_INFO_STREAM("pause: " << response.message);
   return true;
 }

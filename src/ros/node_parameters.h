@@ -1,16 +1,16 @@
 #pragma once
-// Private parameters of stiffness_node. live_stiffness/parameters.h says what each is.
+// Private parameters of stiffness_node, which replay has, too. live_stiffness/parameters.h says what each is.
 
 #include <ros/node_handle.h>
+#include <yaml-cpp/yaml.h>
 
 #include <string>
 #include <vector>
 
+#include "estimation/input_parameters.h"
 #include "live_stiffness/compliance/model_options.h"
-#include "live_stiffness/estimation/registration.h"
 #include "live_stiffness/estimation/stiffness_estimator.h"
 #include "live_stiffness/estimation/tip_wrench_estimator.h"
-#include "ros/conversions.h"
 #include "ros/marker_shapes.h"
 
 namespace live_stiffness {
@@ -23,62 +23,34 @@ struct TipHandleOptions {
   double moment_per_rad = kTipHandleMoment.standard;  // N m of moment for each rad the handle is turned
 };
 
-struct NodeParameters {
+struct NodeParameters : InputParameters {
   Scene scene;
   std::string model_name = kModel.standard, stepping_name = kStepping.standard;
   ModelOptions model;
   EstimatorOptions estimator;
   double heartbeat = kHeartbeat.standard;  // Hz
 
-  PressureFormat pressure_format;
-  std::vector<std::string> pressure_topics;  // one sensor_msgs/FluidPressure topic per channel; empty: one topic
-  std::vector<int> channel_of_chamber;       // empty: one channel per chamber
-  double pressure_timeout = kPressureTimeout.standard;  // s
-
-  std::string position_unit = kPositionUnit.standard;        // of the tracker's positions
-  std::string tracker_frame = kTrackerFrame.standard;        // A
-  std::string sensor_frame = kSensorFrame.standard;          // the tracker's name of the sensor, also accepted as frame_id
-  std::string tracker_tf_frame = kTrackerTfFrame.standard;   // look it up in tf instead of a topic; empty: topic
-  double pose_timeout = kPoseTimeout.standard;               // s
   Registration registration;      // in use: loaded, until ~register applies another one
+  bool is_registered = false;     // one was loaded, or applied by ~register
   std::string registration_file;  // that it was loaded from; empty: none
   double registration_buffer = kRegistrationBuffer.standard;  // s of the past that ~register can use
-  double tip_wrench_timeout = kTipWrenchTimeout.standard;     // s; 0: keep the last one for ever
 
   TipWrenchOptions contact;
   double contact_arrow_scale = kContactArrow.standard;  // of the arrow drawn, N/m
 
-  FrameNames frames{kBaseFrame.standard, kTipFrame.standard};  // B, and T as predicted
   MarkerStyle style;  // its frame is that of B; its scale is the force in N whose displacement is drawn
   double marker_rate = kMarkerRate.standard;  // Hz
   bool show_eigenscrews = kShowEigenscrews.standard;
   double eigenscrew_length = kEigenscrewLength.standard;  // of each axis drawn, m
   TipHandleOptions tip_handle;
 
-  // Calls visit(parameter, field) for each parameter but the scene.
+  // Calls visit(parameter, field) for each parameter but the files.
   template <class Parameters, class Visit>
   static void forEachParameter(Parameters& p, Visit&& visit) {
-    visit(kModel, p.model_name);
-    visit(kStepping, p.stepping_name);
-    ModelOptions::forEachParameter(p.model, visit);
-    EstimatorOptions::forEachParameter(p.estimator, visit);
-    visit(kHeartbeat, p.heartbeat);
-    PressureFormat::forEachParameter(p.pressure_format, visit);
-    visit(kPressureTopics, p.pressure_topics);
-    visit(kChannelOfChamber, p.channel_of_chamber);
-    visit(kPressureTimeout, p.pressure_timeout);
-    visit(kPositionUnit, p.position_unit);
-    visit(kTrackerFrame, p.tracker_frame);
-    visit(kSensorFrame, p.sensor_frame);
-    visit(kTrackerTfFrame, p.tracker_tf_frame);
-    visit(kPoseTimeout, p.pose_timeout);
-    visit(kRegistrationFile, p.registration_file);
+    forEachOfModel(p, visit);
+    InputParameters::forEachParameter(p, visit);
     visit(kRegistrationBuffer, p.registration_buffer);
-    visit(kTipWrenchTimeout, p.tip_wrench_timeout);
-    TipWrenchOptions::forEachParameter(p.contact, visit);
     visit(kContactArrow, p.contact_arrow_scale);
-    visit(kBaseFrame, p.frames.base);
-    visit(kTipFrame, p.frames.body);
     visit(kEllipsoidScale, p.style.ellipsoid_scale);
     visit(kMarkerRate, p.marker_rate);
     visit(kShowEigenscrews, p.show_eigenscrews);
@@ -87,13 +59,34 @@ struct NodeParameters {
     visit(kTipHandleForce, p.tip_handle.force_per_m);
     visit(kTipHandleMoment, p.tip_handle.moment_per_rad);
   }
+  // The same for those that say how inputs become estimates.
+  template <class Parameters, class Visit>
+  static void forEachOfModel(Parameters& p, Visit&& visit) {
+    visit(kModel, p.model_name);
+    visit(kStepping, p.stepping_name);
+    ModelOptions::forEachParameter(p.model, visit);
+    EstimatorOptions::forEachParameter(p.estimator, visit);
+    visit(kHeartbeat, p.heartbeat);
+    TipWrenchOptions::forEachParameter(p.contact, visit);
+  }
 };
 
-// Reads and validates all of them. Throws ConfigurationError with every fault. Warns of unknown ones.
+// The private parameters of a node, as YAML; nothing if there are none.
+YAML::Node privateParameters(const ros::NodeHandle& private_node);
+
+// Reads and validates all of them, from a mapping of keys to values. Throws ConfigurationError with every fault; prefix: put
+// before each. unknown: gets the keys that are not known.
+NodeParameters readNodeParameters(const YAML::Node& values, const std::string& subject, const std::string& prefix,
+                                  std::vector<std::string>& unknown);
+
+// The same from the private parameters of a node. Warns of unknown ones in the log.
 NodeParameters loadNodeParameters(const ros::NodeHandle& private_node);
 
 // The parameters with those changed that dynamic_reconfigure can change. Throws ConfigurationError with every fault, NaN
 // included, which dynamic_reconfigure itself lets through.
 NodeParameters reconfigured(NodeParameters parameters, const StiffnessConfig& config);
+
+// Warns of unknown private parameters in the log.
+void warnOfUnknown(const std::vector<std::string>& keys, const std::string& node);
 
 }  // namespace live_stiffness

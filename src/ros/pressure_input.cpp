@@ -4,64 +4,66 @@
 #include <cmath>
 
 namespace live_stiffness {
-namespace {
 
-ChannelMap makeChannelMap(const NodeParameters& parameters) {
-  if (!parameters.channel_of_chamber.empty()) return ChannelMap(parameters.channel_of_chamber);
-  return ChannelMap::even(parameters.scene.chamberCount(), parameters.scene.chamberCount());
-}
-
-}  // namespace
-
-PressureInput::PressureInput(const NodeParameters& parameters)
+PressureInput::PressureInput(const InputParameters& parameters, const Scene* scene)
     : parameters_(parameters),
-      channel_map_(makeChannelMap(parameters)),
-      status_({"chamber_pressures", "pressures", "channels", "; see ~channel_of_chamber", channel_map_.channelCount(),
-               parameters.pressure_timeout}),
-      channels_(Pressures::Zero(parameters.pressure_topics.size())),
+      status_({"chamber_pressures", "pressures", "channels", "; see channel_of_chamber", 0, parameters.pressure_timeout}),
+      levels_(0.0),
+      channels_(Pressures::Zero(static_cast<long>(parameters.pressure_topics.size()))),
       arrivals_(parameters.pressure_topics.size()),
-      stamps_(parameters.pressure_topics.size()) {}
-
-void PressureInput::updateChannels() {
-  channel_map_ = makeChannelMap(parameters_);
-  status_.setCount(channel_map_.channelCount());
+      stamps_(parameters.pressure_topics.size()) {
+  setScene(scene != nullptr ? *scene : Scene());
 }
 
-std::optional<Parsed<Pressures>> PressureInput::read(const AnyMessage& message) {
-  return chamberPressures(readPressures(*message.getConstMessage(), parameters_.pressure_format),
-                          message.getPublisherName());
+void PressureInput::setScene(const Scene& scene) {
+  channel_map_.reset();
+  if (!parameters_.channel_of_chamber.empty()) channel_map_ = ChannelMap(parameters_.channel_of_chamber);
+  status_.setCount(channel_map_ ? channel_map_->channelCount() : scene.chamberCount(), channel_map_.has_value());
+  levels_ = PressureLevels(fullRange(scene));
 }
 
-std::optional<Parsed<Pressures>> PressureInput::chamberPressures(Parsed<Pressures> channels,
-                                                                 const std::string& publisher) {
+std::optional<Parsed<Pressures>> PressureInput::read(const topic_tools::ShapeShifter& message, const std::string& publisher) {
+  return accepted(readPressures(message, parameters_.pressure_format), publisher);
+}
+
+std::optional<Parsed<Pressures>> PressureInput::accepted(Parsed<Pressures> channels, const std::string& publisher) {
   if (!status_.accept(channels, publisher)) return std::nullopt;
-  channels.value = channel_map_.expand(channels.value);
+  levels_.add(channels.value);
   return channels;
 }
 
 // If one channel is silent or bad, all pressures are stale.
-bool PressureInput::isComplete(const ros::Time& now) const {
-  return std::all_of(arrivals_.begin(), arrivals_.end(), [&](const ros::Time& arrival) {
-    return !arrival.isZero() && std::abs(secondsBetween(arrival, now)) <= parameters_.pressure_timeout;
-  });
+std::string PressureInput::silentChannel() const {
+  const ros::Time now = ros::Time::now();
+  for (size_t channel = 0; channel < arrivals_.size(); ++channel) {
+    const double age = std::abs(secondsBetween(arrivals_[channel], now));
+    if (arrivals_[channel].isZero()) return parameters_.pressure_topics[channel] + " has sent nothing that can be used";
+    if (age > parameters_.pressure_timeout)
+      return parameters_.pressure_topics[channel] + " is silent for " + numberText(age) + " s";
+  }
+  return "";
 }
 
 std::optional<Parsed<Pressures>> PressureInput::readChannel(const sensor_msgs::FluidPressure& message, size_t channel) {
   const Parsed<double> pressure = readPressure(message, parameters_.pressure_format);
   Parsed<Pressures> all;
   if (pressure.ok()) {
-    const ros::Time now = ros::Time::now();
-    channels_[channel] = pressure.value;
-    arrivals_[channel] = now;
+    channels_[static_cast<long>(channel)] = pressure.value;
+    arrivals_[channel] = ros::Time::now();
     stamps_[channel] = pressure.stamp;
-    if (!isComplete(now)) return std::nullopt;
+    if (!silentChannel().empty()) return std::nullopt;
     all.value = channels_;
     all.stamp = *std::max_element(stamps_.begin(), stamps_.end());
   } else {
     arrivals_[channel] = ros::Time();
     all.error = parameters_.pressure_topics[channel] + ": " + pressure.error;
   }
-  return chamberPressures(std::move(all), "");
+  return accepted(std::move(all), "");
+}
+
+void PressureInput::diagnose(const std::string& solver_error, diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const std::string silent = silentChannel();
+  status_.diagnose(solver_error, silent.empty() ? "" : ": " + silent, doubt(), status);
 }
 
 }  // namespace live_stiffness

@@ -1,44 +1,54 @@
 #pragma once
-// Chamber pressures from the topics of a rig.
+// Chamber pressures from a rig's messages. Knows no subscriber.
 
 #include <sensor_msgs/FluidPressure.h>
+#include <topic_tools/shape_shifter.h>
 
 #include <optional>
 #include <string>
-#include <vector>
 
+#include "estimation/pressure_levels.h"
 #include "live_stiffness/section/channel_map.h"
-#include "ros/any_type_subscriber.h"
+#include "ros/conversions.h"
 #include "ros/input_status.h"
-#include "ros/node_parameters.h"
 
 namespace live_stiffness {
 
 class PressureInput {
  public:
-  // parameters must outlive the input.
-  explicit PressureInput(const NodeParameters& parameters);
+  // parameters must outlive the input. scene: feeds its chambers; nullptr: not known, and channels are chambers.
+  PressureInput(const InputParameters& parameters, const Scene* scene);
 
-  // Gauge pressures (Pa, one per chamber) and the stamp to use for them. None if the message cannot be used.
-  std::optional<Parsed<Pressures>> read(const AnyMessage& message);
+  // Gauge pressures (Pa, one per channel) and the stamp to use for them. None if the message cannot be used. publisher: its
+  // name, so that lost messages can be counted; may be empty.
+  std::optional<Parsed<Pressures>> read(const topic_tools::ShapeShifter& message, const std::string& publisher);
   // The same if each channel has its own topic, one of ~pressure_topics; also none unless every channel has sent a good
   // message within ~pressure_timeout_s. channel: from 0.
   std::optional<Parsed<Pressures>> readChannel(const sensor_msgs::FluidPressure& message, size_t channel);
-  // Call it when the scene or channel_of_chamber in the parameters has changed.
-  void updateChannels();
+  // Call it when scene or channel_of_chamber in the parameters have changed.
+  void setScene(const Scene& scene);
+  // Pressures of the chambers from those of the channels, as read.
+  Pressures chambers(PressuresRef channels) const {
+    return channel_map_ ? channel_map_->expand(channels) : Pressures(channels);
+  }
 
-  int channelCount() const { return channel_map_.channelCount(); }
+  int channelCount() const { return status_.count(); }
   ArrayStatus& status() { return status_; }
   const ArrayStatus& status() const { return status_; }
+  // What is doubtful about good pressures; empty: nothing.
+  std::string doubt() const { return levels_.doubt(); }
+  void diagnose(const std::string& solver_error, diagnostic_updater::DiagnosticStatusWrapper& status);
 
  private:
-  std::optional<Parsed<Pressures>> chamberPressures(Parsed<Pressures> channels, const std::string& publisher);
-  bool isComplete(const ros::Time& now) const;
+  std::optional<Parsed<Pressures>> accepted(Parsed<Pressures> channels, const std::string& publisher);
+  // The first topic of a channel that has sent nothing good for ~pressure_timeout_s, and since when; empty: all have.
+  std::string silentChannel() const;
 
-  const NodeParameters& parameters_;
-  ChannelMap channel_map_;
+  const InputParameters& parameters_;
+  std::optional<ChannelMap> channel_map_;  // none: a channel is a chamber
   ArrayStatus status_;
-  Pressures channels_;             // newest of each of ~pressure_topics
+  PressureLevels levels_;
+  Pressures channels_;               // newest of each of ~pressure_topics
   std::vector<ros::Time> arrivals_;  // of the newest good message of each; zero: none since the last bad one
   std::vector<ros::Time> stamps_;    // of the newest message of each
 };

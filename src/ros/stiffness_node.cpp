@@ -27,16 +27,16 @@ StiffnessNode::StiffnessNode(const ros::NodeHandle& node, const ros::NodeHandle&
       backbone_publisher_(private_node_.advertise<nav_msgs::Path>("backbone", 1)),
       marker_publisher_(private_node_.advertise<visualization_msgs::MarkerArray>("markers", 1)),
       error_publisher_(private_node_.advertise<TrackingError>("tracking_error", 10)),
-      estimator_(std::make_shared<StiffnessEstimator>(parameters_.scene, parameters_.model, parameters_.estimator)),
-      pressure_input_(parameters_),
-      wrench_input_("tip_wrench", parameters_.frames, parameters_.tip_wrench_timeout),
+      contact_publisher_(private_node_.advertise<TipContact>("tip_contact", 10)),
+      wrench_publisher_(private_node_.advertise<geometry_msgs::WrenchStamped>("tip_wrench_estimate", 10)),
+      updater_(parameters_, *this),
       pose_output_(private_node_, "tip_pose", parameters_.frames),
-      tracker_input_(onQueue(node, &tracking_queue_), parameters_),
-      contact_(private_node_, parameters_),
+      comparison_(parameters_, *this),
       registration_(private_node_, model(), parameters_, [this](const Registration& registration) {
         const Lock lock(tracking_mutex_);
         parameters_.registration = registration;
-        contact_.reset();
+        parameters_.is_registered = true;
+        comparison_.reset();
       }),
       diagnostics_(node_, private_node_) {
   if (parameters_.tip_handle.enabled)
@@ -47,7 +47,7 @@ StiffnessNode::StiffnessNode(const ros::NodeHandle& node, const ros::NodeHandle&
   subscribe(node);
   ROS_INFO("%s, stepping %s, %d segment(s), %d chamber(s) on %d channel(s)", modelName(parameters_.model).c_str(),
            steppingName(parameters_.model.stepping).c_str(), parameters_.scene.segmentCount(),
-           parameters_.scene.chamberCount(), pressure_input_.channelCount());
+           parameters_.scene.chamberCount(), updater_.pressures().channelCount());
   estimation_spinner_.start();
   tracking_spinner_.start();
 }
@@ -56,7 +56,6 @@ StiffnessNode::~StiffnessNode() = default;
 
 void StiffnessNode::subscribe(const ros::NodeHandle& node) {
   constexpr int kPressureQueue = 100;  // enough for a tenth of a second of 1 kHz
-  constexpr double kTfRate = 40.0;     // Hz, an NDI Aurora's
   ros::NodeHandle estimation = onQueue(node, &estimation_queue_), tracking = onQueue(node, &tracking_queue_);
   const std::vector<std::string>& topics = parameters_.pressure_topics;
   for (size_t channel = 0; channel < topics.size(); ++channel)
@@ -72,122 +71,81 @@ void StiffnessNode::subscribe(const ros::NodeHandle& node) {
   timers_ = {estimation.createWallTimer(heartbeat, &StiffnessNode::onHeartbeat, this),
              tracking.createWallTimer(heartbeat, &StiffnessNode::onTrackingHeartbeat, this),
              node_.createWallTimer(ros::WallDuration(1.0 / parameters_.marker_rate), &StiffnessNode::onMarkers, this)};
-  if (tracker_input_.usesTf())
-    timers_.push_back(tracking.createWallTimer(ros::WallDuration(1.0 / kTfRate), &StiffnessNode::onTfTimer, this));
-  else
-    pose_subscriber_.subscribe(tracking, "aurora_pose", 10, &StiffnessNode::onTrackerPose, this);
+  if (!comparison_.tracker().usesTf())
+    return pose_subscriber_.subscribe(tracking, "aurora_pose", 10, &StiffnessNode::onTrackerPose, this);
+  for (const bool is_static : {true, false})
+    subscribers_.push_back(tracking.subscribe<tf2_msgs::TFMessage>(
+        is_static ? "/tf_static" : "/tf", 100,
+        [this, is_static](const tf2_msgs::TFMessage::ConstPtr& message) { onTf(*message, is_static); }));
 }
 
+// The past for ~register is kept last, so that it does not delay the estimate.
 void StiffnessNode::onPressures(const AnyMessage& message) {
   const Lock lock(estimation_mutex_);
-  if (const auto pressures = pressure_input_.read(message)) estimate(*pressures);
+  if (const auto used = updater_.onPressures(*message.getConstMessage(), message.getPublisherName()))
+    registration_.addPressures(used->value, used->stamp);
 }
 
 void StiffnessNode::onChannelPressure(const sensor_msgs::FluidPressure& message, size_t channel) {
   const Lock lock(estimation_mutex_);
-  if (const auto pressures = pressure_input_.readChannel(message, channel)) estimate(*pressures);
+  if (const auto used = updater_.onChannelPressure(message, channel)) registration_.addPressures(used->value, used->stamp);
 }
 
 void StiffnessNode::onTipWrench(const geometry_msgs::WrenchStamped& message) {
   const Lock lock(estimation_mutex_);
-  const Pose* const X_BT = estimator_->estimate() ? &estimator_->estimate()->solution.X_BT : nullptr;
-  if (const auto wrench = wrench_input_.read(message, X_BT)) onSolved(estimator_->setTipWrench(*wrench));
+  updater_.onTipWrench(message);
 }
 
 void StiffnessNode::onHeartbeat(const ros::WallTimerEvent&) {
   const Lock lock(estimation_mutex_);
-  pressure_input_.status().checkClock();
-  if (wrench_input_.expires()) onSolved(estimator_->setTipWrench(Wrench::Zero()));
-  if (isStale()) publishEstimate();
-  else onSolved(estimator_->solve());
+  updater_.onHeartbeat();
 }
 
-void StiffnessNode::estimate(const Parsed<Pressures>& pressures) {
-  pressure_stamp_ = pressures.stamp;
-  if (!is_paused_) {
-    const double time = pressures.stamp.toSec();
-    onSolved(estimator_->setPressures(pressures.value, time));
-    if (estimator_->estimate() != nullptr && estimator_->status().ok())
-      history_.add({time, pressures.value, estimator_->estimate()->solution.X_BT});
-  }
-  registration_.addPressures(pressures.value, pressures.stamp);  // last, so that it does not delay the estimate
-}
-
-void StiffnessNode::onSolved(StiffnessEstimator::Outcome outcome) {
-  if (!estimator_->status().ok()) pressure_input_.status().logError(estimator_->statusText());
-  else if (outcome == StiffnessEstimator::Outcome::kSolved) estimate_stamp_ = pressure_stamp_;
-  if (outcome != StiffnessEstimator::Outcome::kUnchanged) publishEstimate();
-}
-
-std::string StiffnessNode::newestError() const {
-  if (is_paused_) return "paused: call ~pause with false to continue";
-  const std::string& input_error = pressure_input_.status().error();
-  return input_error.empty() ? estimator_->statusText() : input_error;
-}
-
-// The last good estimate, with its present status.
-void StiffnessNode::publishEstimate() {
-  if (estimator_->estimate() == nullptr) return;
-  const Estimate& estimate = *estimator_->estimate();
-  const auto message =
-      boost::make_shared<StiffnessEstimate>(toEstimate(estimate, estimate_stamp_, parameters_.frames.base));
-  setStatus(estimator_->status().code, newestError(), pressure_input_.status().isStale(), parameters_.pressure_timeout,
-            "pressures", *message);
-  if (is_paused_) message->status = static_cast<uint8_t>(estimator_->status().code);
-  estimate_publisher_.publish(message);  // shared: no copy for subscribers in this process
+void StiffnessNode::onEstimate(const StiffnessEstimate::ConstPtr& estimate, const Pose* X_BT) {
+  estimate_publisher_.publish(estimate);  // shared: no copy for subscribers in this process
   frequency_.tick();
-  if (message->stale) return;
-  time_stamps_.tick(estimate_stamp_);
-  pose_output_.publish(estimate.solution.X_BT, estimate_stamp_);
+  if (X_BT == nullptr) return;
+  time_stamps_.tick(estimate->header.stamp);
+  pose_output_.publish(*X_BT, estimate->header.stamp);
 }
 
 EstimateSnapshot StiffnessNode::snapshot() {
   const Lock lock(estimation_mutex_);
-  EstimateSnapshot snapshot{model(), nullptr, estimate_stamp_, isStale()};
-  if (estimator_->estimate() != nullptr) snapshot.estimate = std::make_shared<Estimate>(*estimator_->estimate());
+  EstimateSnapshot snapshot{model(), nullptr, updater_.stamp(), updater_.isStale()};
+  if (const Estimate* newest = updater_.estimator()->estimate()) snapshot.estimate = std::make_shared<Estimate>(*newest);
   return snapshot;
 }
 
 void StiffnessNode::onTrackerPose(const AnyMessage& message) {
   const Lock lock(tracking_mutex_);
-  if (const auto measured = tracker_input_.read(message)) compare(*measured);
+  compare(comparison_.tracker().read(*message.getConstMessage()));
 }
 
-void StiffnessNode::onTfTimer(const ros::WallTimerEvent&) {
+void StiffnessNode::onTf(const tf2_msgs::TFMessage& transforms, bool is_static) {
   const Lock lock(tracking_mutex_);
-  if (const auto measured = tracker_input_.lookUp()) compare(*measured);
+  compare(comparison_.tracker().read(transforms, is_static));
 }
 
 void StiffnessNode::onTrackingHeartbeat(const ros::WallTimerEvent&) {
   const Lock lock(tracking_mutex_);
-  tracker_input_.status().checkClock();
+  comparison_.tracker().status().checkClock();
 }
 
-void StiffnessNode::compare(const TipMeasurement& measured) {
-  // A late tracker shows where the robot was then.
-  const double delay = parameters_.registration.tracker_delay, time = measured.stamp.toSec() - delay;
-  Moment then;
-  Wrench newest_wrench, solved_wrench;
-  bool is_known;
+void StiffnessNode::compare(const std::optional<Parsed<Pose>>& X_AS) {
+  if (!X_AS) return;
+  const double delay = parameters_.registration.tracker_delay;
+  KnownState state;
   {
     const Lock lock(estimation_mutex_);
-    const Estimate* const estimate = estimator_->estimate();
-    newest_wrench = estimator_->tipWrench();
-    is_known = estimate != nullptr && !isStale() && !history_.empty();
-    if (is_known) {
-      solved_wrench = estimate->tip_wrench;
-      then = delay == 0.0 ? Moment{time, estimator_->pressures(), estimate->solution.X_BT} : history_.at(time);
-    }
+    state = updater_.stateAt(X_AS->stamp, delay);
   }
-  registration_.addPose(measured.X_AS, newest_wrench, contact_.inContact(), time);
-  if (!is_known) return;
-  const Twist residual = residualTwist(measured.X_BT, then.X_BT);
-  const bool is_lost = tracker_input_.repeatsItself();
-  contact_.update(then.pressures, solved_wrench, is_lost ? nullptr : &measured.X_BT, measured.stamp);
-  if (is_lost) return;
-  tracking_error_ = linear(residual).norm();
-  error_publisher_.publish(
-      toTrackingError(measured.X_BT, then.X_BT, residual, measured.stamp, parameters_.frames.base));
+  registration_.addPose(X_AS->value, state.newest_wrench, comparison_.contact() != nullptr, X_AS->stamp.toSec() - delay);
+  comparison_.compare(*X_AS, state);
+}
+
+void StiffnessNode::onContact(const TipContact& contact, const geometry_msgs::WrenchStamped& wrench) {
+  wrench_publisher_.publish(wrench);
+  contact_publisher_.publish(contact);
 }
 
 void StiffnessNode::onMarkers(const ros::WallTimerEvent&) {
@@ -199,8 +157,12 @@ void StiffnessNode::onMarkers(const ros::WallTimerEvent&) {
   visualization_msgs::MarkerArray contact;
   {
     const Lock lock(tracking_mutex_);
-    measured_tip = tracker_input_.freshTip();
-    contact = contact_.markers(style, newest.stamp);
+    measured_tip = comparison_.freshTip();
+    const TipWrenchEstimate* touched = comparison_.contact();
+    contact = touched == nullptr
+                  ? makeContactMarkers(Vector3::Zero(), Vector3::Zero(), 0.0, false, 1.0, style, newest.stamp)
+                  : makeContactMarkers(touched->X_BT.p, linear(touched->wrench), forceDeviation(*touched), true,
+                                       parameters_.contact_arrow_scale, style, newest.stamp);
   }
   visualization_msgs::MarkerArray markers = makeMarkers(estimate, measured_tip, newest.stale, style, newest.stamp);
   append(markers, contact);

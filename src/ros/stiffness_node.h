@@ -22,27 +22,24 @@
 #include <string>
 #include <vector>
 
-#include "estimation/motion_history.h"
-#include "ros/contact_output.h"
+#include "ros/any_type_subscriber.h"
 #include "ros/estimate_snapshot.h"
-#include "ros/node_parameters.h"
+#include "ros/estimate_updater.h"
 #include "ros/pose_output.h"
-#include "ros/pressure_input.h"
 #include "ros/registration_service.h"
 #include "ros/shared_diagnostics.h"
-#include "ros/tracker_input.h"
-#include "ros/wrench_input.h"
+#include "ros/tip_comparison.h"
 
 namespace live_stiffness {
 
 class TipHandle;
 
-class StiffnessNode {
+class StiffnessNode : private EstimateOutput {
  public:
   // Subscribes and advertises. Throws ConfigurationError with every fault of the parameters. The caller must spin the global
   // callback queue, in one thread.
   StiffnessNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
-  ~StiffnessNode();
+  ~StiffnessNode() override;
 
  private:
   using Lock = std::lock_guard<std::mutex>;
@@ -56,20 +53,17 @@ class StiffnessNode {
   void onTipWrench(const geometry_msgs::WrenchStamped& message);
   void onHeartbeat(const ros::WallTimerEvent&);
   // With estimation_mutex_ locked.
-  void estimate(const Parsed<Pressures>& pressures);
-  void onSolved(StiffnessEstimator::Outcome outcome);
-  void publishEstimate();
-  // Why the estimate does not belong to the newest pressures; empty if it does.
-  std::string newestError() const;
-  bool isStale() const { return !newestError().empty() || pressure_input_.status().isStale(); }
-  std::shared_ptr<const StiffnessModel> model() const { return {estimator_, &estimator_->model()}; }
+  void onEstimate(const StiffnessEstimate::ConstPtr& estimate, const Pose* X_BT) override;
+  std::shared_ptr<const StiffnessModel> model() const { return {updater_.estimator(), &updater_.estimator()->model()}; }
 
   // In the tracking thread.
   void onTrackerPose(const AnyMessage& message);
-  void onTfTimer(const ros::WallTimerEvent&);
+  void onTf(const tf2_msgs::TFMessage& transforms, bool is_static);
   void onTrackingHeartbeat(const ros::WallTimerEvent&);
   // With tracking_mutex_ locked.
-  void compare(const TipMeasurement& measured);
+  void compare(const std::optional<Parsed<Pose>>& X_AS);
+  void onTrackingError(const TrackingError& error) override { error_publisher_.publish(error); }
+  void onContact(const TipContact& contact, const geometry_msgs::WrenchStamped& wrench) override;
 
   // In the thread of the global callback queue.
   EstimateSnapshot snapshot();  // locks estimation_mutex_
@@ -94,22 +88,12 @@ class StiffnessNode {
   ros::CallbackQueue estimation_queue_, tracking_queue_;
   std::mutex estimation_mutex_, tracking_mutex_;
   ros::NodeHandle node_, private_node_;
-  ros::Publisher estimate_publisher_, backbone_publisher_, marker_publisher_, error_publisher_;
+  ros::Publisher estimate_publisher_, backbone_publisher_, marker_publisher_, error_publisher_, contact_publisher_,
+      wrench_publisher_;
 
-  // Of the estimation thread.
-  std::shared_ptr<StiffnessEstimator> estimator_;
-  PressureInput pressure_input_;
-  WrenchInput wrench_input_;
-  PoseOutput pose_output_;
-  MotionHistory history_;
-  ros::Time pressure_stamp_;  // of the newest usable pressures
-  ros::Time estimate_stamp_;  // of the pressures of the last good estimate
-  bool is_paused_ = false;
-
-  // Of the tracking thread.
-  TrackerInput tracker_input_;
-  ContactOutput contact_;
-  double tracking_error_ = 0.0;  // newest distance, m
+  EstimateUpdater updater_;   // of the estimation thread
+  PoseOutput pose_output_;    // the same
+  TipComparison comparison_;  // of the tracking thread
 
   ModelWorkspace solver_;  // of the services
   RegistrationService registration_;

@@ -32,6 +32,7 @@ class WrenchInput {
     status_.restart();
     return true;
   }
+  const InputStatus& status() const { return status_; }
   // What was wrong with the newest message, with the name of the topic; empty: nothing.
   std::string error() const { return status_.error().empty() ? "" : status_.name() + ": " + status_.error(); }
 

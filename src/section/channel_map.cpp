@@ -10,21 +10,15 @@ namespace live_stiffness {
 ChannelMap::ChannelMap(std::vector<int> channel_of_chamber) : channel_of_chamber_(std::move(channel_of_chamber)) {
   FaultList faults("channel map");
   if (channel_of_chamber_.empty()) faults.add("channel_of_chamber: must hold one channel index per chamber");
-  std::vector<bool> feeds_some(kMaxChannels, false);
   for (size_t k = 0; k < channel_of_chamber_.size(); ++k) {
     const int channel = channel_of_chamber_[k];
     if (channel < 0 || channel >= kMaxChannels) {
       faults.add("channel_of_chamber[" + std::to_string(k) + "] = " + std::to_string(channel) + ": must be 0 to " +
                  std::to_string(kMaxChannels - 1));
     } else {
-      feeds_some[channel] = true;
       channel_count_ = std::max(channel_count_, channel + 1);
     }
   }
-  for (int channel = 0; channel < channel_count_; ++channel)
-    if (!feeds_some[channel])
-      faults.add("channel_of_chamber: channel " + std::to_string(channel) + " feeds no chamber, but channel " +
-                 std::to_string(channel_count_ - 1) + " does: number channels from 0 without gaps");
   faults.throwIfAny();
 }
 
@@ -44,13 +38,13 @@ ChannelMap ChannelMap::even(int channels, int chambers) {
 Pressures ChannelMap::expand(PressuresRef channels) const {
   Pressures chambers(chamberCount());
   if (!expandInto(channels, chambers))
-    throw std::invalid_argument(std::to_string(channels.size()) + " channel pressures given: must be " +
+    throw std::invalid_argument(std::to_string(channels.size()) + " channel pressures given: must be at least " +
                                 std::to_string(channelCount()));
   return chambers;
 }
 
 bool ChannelMap::expandInto(PressuresRef channels, Eigen::Ref<Pressures> chambers) const {
-  if (channels.size() != channelCount() || chambers.size() != chamberCount()) return false;
+  if (channels.size() < channelCount() || chambers.size() != chamberCount()) return false;
   for (int k = 0; k < chamberCount(); ++k) chambers[k] = channels[channel_of_chamber_[k]];
   return true;
 }

@@ -47,11 +47,11 @@ class RecordedBag : public ::testing::Test {
   }
   Recording load() {
     bag_.close();
-    return loadRecordedBag(path_);
+    return loadRecordedBags({path_}, {}, {});
   }
   static std::string refusalOf(const std::string& path) {
     try {
-      loadRecordedBag(path);
+      loadRecordedBags({path}, {}, {});
     } catch (const std::runtime_error& error) {
       return error.what();
     }
@@ -89,13 +89,15 @@ TEST_F(RecordedBag, ReadsWhatARigOfItsOwnHasRecorded) {
   bag_.write("ndi/tool_1", stamp, toPoseStamped({Matrix3::Identity(), Vector3(120.0, 0.0, 0.0)}, stamp, "aurora"));
   bag_.write("/nano17", stamp, toWrenchStamped(Wrench(0.5 * Wrench::Unit(0)), stamp, "nano17"));
   bag_.close();
-  BagFormat format{"valves/pressure", "/ndi/tool_1", "nano17", {"kPa", "absolute"}, "mm"};
-  const Recording recording = loadRecordedBag(path_, format);
+  InputParameters parameters;
+  parameters.pressure_format = {"kPa", "absolute"};
+  parameters.position_unit = "mm";
+  const Recording recording = loadRecordedBags({path_}, {"valves/pressure", "/ndi/tool_1", "nano17"}, parameters);
   ASSERT_EQ(recording.samples.size(), 1u);
   EXPECT_TRUE(matrixNear(recording.samples[0].pressures, Pressures::Constant(3, 10e3), 1e-6));
   EXPECT_TRUE(matrixNear(recording.samples[0].tip_position, Vector3(0.12, 0.0, 0.0), 1e-12));
   ASSERT_TRUE(recording.samples[0].tip_wrench.has_value());
-  EXPECT_THROW(loadRecordedBag(path_), ConfigurationError) << "nothing is on the topics of the node";
+  EXPECT_THROW(loadRecordedBags({path_}, {}, {}), ConfigurationError) << "nothing is on the topics of the node";
 }
 
 TEST_F(RecordedBag, WarnsOfUnitsThatNoRobotHas) {

@@ -89,11 +89,11 @@ TEST(InputStatus, CountsTheMessagesLostBetweenTwoOfOnePublisher) {
 }
 
 TEST(ArrayStatus, RefusesAnotherNumberOfValuesByName) {
-  ArrayStatus status({"pressures", "pressures", "channels", "; see ~channel_of_chamber", 2, 0.5});
+  ArrayStatus status({"pressures", "pressures", "channels", "; see channel_of_chamber", 2, 0.5});
   Parsed<Eigen::VectorXd> three{ros::Time(), Eigen::VectorXd::Zero(3), ""}, two{ros::Time(), Eigen::VectorXd::Zero(2), ""};
   ros::Time::init();
   EXPECT_FALSE(status.accept(three, "/driver"));
-  EXPECT_EQ(status.error(), "3 channels: must be 2; see ~channel_of_chamber");
+  EXPECT_EQ(status.error(), "3 channels: must be 2; see channel_of_chamber");
   EXPECT_TRUE(status.isStale());
   EXPECT_TRUE(status.accept(two, "/driver"));
   EXPECT_FALSE(two.stamp.isZero()) << "without a stamp the time of arrival";

@@ -5,21 +5,18 @@
 
 #include <cmath>
 
-#include "ros/parameter_reader.h"
+#include "parameter_reader.h"
 
 namespace live_stiffness {
 namespace {
 
-XmlRpc::XmlRpcValue valuesOf(const std::string& key, const XmlRpc::XmlRpcValue& value) {
-  XmlRpc::XmlRpcValue values;
-  values[key] = value;
-  return values;
-}
-
 // Faults of reading and checking parameters of which one is set.
-std::vector<std::string> faultsOf(const std::string& key, const XmlRpc::XmlRpcValue& value, NodeParameters& parameters) {
+template <class Value>
+std::vector<std::string> faultsOf(const std::string& key, const Value& value, NodeParameters& parameters) {
   FaultList faults("parameters", "~");
-  ParameterReader read(valuesOf(key, value), faults);
+  YAML::Node values;
+  values[key] = value;
+  ParameterReader read(values, faults);
   NodeParameters::forEachParameter(parameters, read);
   faults.checkAll(parameters);
   return faults.faults();
@@ -63,12 +60,33 @@ TEST(NodeParameters, EndsOfRangesAreLegalInEveryUnit) {
 TEST(NodeParameters, WrongTypesAreFaultsAndLeaveTheFieldAlone) {
   NodeParameters parameters;
   const std::vector<std::string> text = faultsOf("accuracy", "fine", parameters);
-  EXPECT_EQ(text, std::vector<std::string>{"~accuracy: must be a number, >= 1e-13 and <= 0.01"});
+  EXPECT_EQ(text, std::vector<std::string>{"~accuracy = 'fine': must be a number, >= 1e-13 and <= 0.01"});
   EXPECT_EQ(parameters.model.accuracy, kAccuracy.standard);
-  EXPECT_EQ(faultsOf("show_eigenscrews", "yes", parameters).size(), 1u);
+  EXPECT_EQ(faultsOf("show_eigenscrews", "perhaps", parameters).size(), 1u);
   EXPECT_EQ(faultsOf("wrench_components", 3.5, parameters).size(), 1u) << "not whole";
   EXPECT_EQ(faultsOf("channel_of_chamber", 1.0, parameters).size(), 1u) << "no list";
-  EXPECT_EQ(faultsOf("tracker_frame", 1, parameters).size(), 1u);
+  EXPECT_EQ(faultsOf("tracker_frame", std::vector<int>{1}, parameters).size(), 1u);
+}
+
+// YAML 1.1 takes 1e-8 for a text, and roscpp a list on the command line.
+TEST(NodeParameters, TextsThatCanMeanNothingElseAreTaken) {
+  NodeParameters parameters;
+  EXPECT_TRUE(faultsOf("accuracy", "1e-8", parameters).empty());
+  EXPECT_EQ(parameters.model.accuracy, 1e-8);
+  EXPECT_TRUE(faultsOf("channel_of_chamber", "[0,0,1,1,2,2]", parameters).empty());
+  EXPECT_EQ(parameters.channel_of_chamber, (std::vector<int>{0, 0, 1, 1, 2, 2}));
+  EXPECT_EQ(faultsOf("channel_of_chamber", "[0, 0", parameters).size(), 1u);
+  EXPECT_EQ(faultsOf("channel_of_chamber", "[0, x]", parameters).size(), 1u);
+  EXPECT_EQ(faultsOf("accuracy", "1,5", parameters), std::vector<std::string>{
+      "~accuracy = '1,5': must be a number, >= 1e-13 and <= 0.01"});
+}
+
+TEST(NodeParameters, TheTrackersFrameIsNoSensor) {
+  NodeParameters parameters;
+  parameters.tracker_tf_frame = parameters.tracker_frame;
+  FaultList faults("parameters");
+  parameters.check(0, faults);
+  EXPECT_EQ(faults.faults().size(), 1u);
 }
 
 TEST(NodeParameters, FramesLoseTheirLeadingSlash) {
@@ -102,7 +120,7 @@ TEST(NodeParameters, ReconfiguringRefusesNaNAndContradictionsAllAtOnce) {
     FAIL() << "accepted";
   } catch (const ConfigurationError& error) {
     ASSERT_EQ(error.faults().size(), 3u) << error.what();
-    EXPECT_EQ(error.faults()[0], "~accuracy = nan: must be >= 1e-13 and <= 0.01");
+    EXPECT_EQ(error.faults()[0], "~accuracy = 'nan': must be a number, >= 1e-13 and <= 0.01");
   }
 }
 

@@ -40,16 +40,22 @@ TEST(ChannelMap, EvenRefusesWhatDoesNotDivide) {
 TEST(ChannelMap, ReportsAllFaultsAtOnce) {
   EXPECT_EQ(faultCount({}), 1u);
   EXPECT_EQ(faultCount({0, -1, kMaxChannels}), 2u);
-  EXPECT_EQ(faultCount({0, 3, 3}), 2u);        // channels 1 and 2 feed nothing
-  EXPECT_EQ(faultCount({-1, 1}), 2u);          // below zero, and channel 0 feeds nothing
+  EXPECT_EQ(faultCount({-1, 1}), 1u);
   EXPECT_EQ(faultCount({0, 0, 1, 1, 2, 2}), 0u);
 }
 
-TEST(ChannelMap, ExpandRefusesTheWrongNumberOfChannels) {
+// Of a valve terminal with twelve outlets.
+TEST(ChannelMap, LeavesSpareChannelsAlone) {
+  const ChannelMap map({4, 5, 3});
+  EXPECT_EQ(map.channelCount(), 6);
+  EXPECT_EQ(map.expand(Pressures::LinSpaced(12, 0.0, 11.0)), Vector3(4.0, 5.0, 3.0));
+}
+
+TEST(ChannelMap, ExpandRefusesTooFewChannels) {
   const ChannelMap map = ChannelMap::even(3, 6);
   EXPECT_THROW(map.expand(Pressures::Zero(2)), std::invalid_argument);
   Pressures chambers = Pressures::Constant(6, 7.0);
-  EXPECT_FALSE(map.expandInto(Pressures::Zero(6), chambers));
+  EXPECT_FALSE(map.expandInto(Pressures::Zero(2), chambers));
   EXPECT_EQ(chambers, Pressures::Constant(6, 7.0));
   Pressures too_few(5);
   EXPECT_FALSE(map.expandInto(Pressures::Zero(3), too_few));

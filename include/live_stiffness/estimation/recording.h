@@ -38,6 +38,7 @@ struct RecordedSample {
 struct Recording {
   std::string name;                     // path it was read from
   std::optional<TrackerMeasures> measures;  // of tip_orientation; none: to be found from the data
+  std::string wrench_frame;             // whose axes the force sensor's wrenches have; empty: not told
   bool absolute = false;                // pressures are absolute; see gaugePressures()
   std::vector<RecordedSample> samples;  // in order of time, never empty
   std::vector<std::string> warnings;    // "line N: reason" for every line left out, and for ignored columns
