@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 
+#include "estimation/plausibility.h"
 #include "live_stiffness/checks.h"
 
 namespace live_stiffness {
@@ -50,20 +51,7 @@ std::optional<Value> newest(const std::map<double, Value>& track, double time) {
   return std::prev(after)->second;
 }
 
-// Detects numbers that no robot has, since wrong units would otherwise only show as a strange failure of a fit.
-void warnOfUnits(Recording& recording) {
-  constexpr double kFarthest = 5.0;       // m, that a tip moves
-  constexpr double kLeastPressure = 1e3;  // Pa, of a session in which the robot moves
-  double motion = 0.0, pressure = 0.0;
-  for (const RecordedSample& sample : recording.samples) {
-    motion = std::max(motion, (sample.tip_position - recording.samples.front().tip_position).norm());
-    pressure = std::max(pressure, sample.pressures.cwiseAbs().maxCoeff());
-  }
-  if (motion > kFarthest)
-    recording.warnings.push_back("the tip moves by " + numberText(motion) + " m: millimetres? (--position-unit mm)");
-  if (pressure > 0.0 && pressure < kLeastPressure)
-    recording.warnings.push_back("no pressure is above " + numberText(pressure) + " Pa: another unit? (--pressure-unit)");
-}
+const Remedies kRemedies{"--position-unit mm", "--pressure-unit", "--pressure-reference gauge", "--pressure-reference absolute", ""};
 
 }  // namespace
 
@@ -100,7 +88,7 @@ Recording loadRecordedBag(const std::string& path, const BagFormat& format) {
     throw ConfigurationError(
         "bag " + path, {"no pose on " + format.pose_topic + " with pressures on " + format.pressure_topic + " before it" +
                         (tracks.unusable > 0 ? ": " + tracks.fault : "; see rosbag info, and --pressures and --pose")});
-  warnOfUnits(recording);
+  for (const std::string& warning : unitWarnings(recording, kRemedies)) recording.warnings.push_back(warning);
   return recording;
 }
 

@@ -23,6 +23,7 @@
 #include "live_stiffness/estimation/stiffness_estimator.h"
 #include "live_stiffness/estimation/tip_wrench_estimator.h"
 #include "ros/parsed.h"
+#include "units.h"
 
 namespace live_stiffness {
 
@@ -43,11 +44,6 @@ struct PressureFormat {
   bool isAbsolute() const { return reference == "absolute"; }
   double gauge(double value) const;  // Pa
 };
-
-// Pa per unit for Pa, kPa, bar, mbar, psi; 0 for any other name.
-double pascalsPerUnit(const std::string& unit);
-// m per unit for m, mm.
-inline double metresPerUnit(const std::string& unit) { return unit == "mm" ? 1e-3 : 1.0; }
 
 // Gauge pressures (Pa) of all channels from ChamberPressures, std_msgs/Float64MultiArray or Float32MultiArray.
 // Errors: another type, a damaged message, a value that is not finite, a negative absolute pressure.
