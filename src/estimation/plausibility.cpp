@@ -28,6 +28,19 @@ Pressures lowestTenth(const Recording& recording) {
   return levels;
 }
 
+// A level at rest of one atmosphere; empty: there is none. Rest is the begin, or whenever pressures are low.
+std::string referenceDoubt(const Recording& recording, const Remedies& remedies) {
+  const double told = recording.absolute ? kAtmospherePa : 0.0;
+  for (const Pressures& level : {restPressures(recording), lowestTenth(recording)}) {
+    const auto isNear = [&](double gauge) { return ((level.array() - told - gauge).abs() < kNearAtmosphere).all(); };
+    const bool is_above = isNear(kAtmospherePa);
+    if (is_above || isNear(-kAtmospherePa))
+      return "at rest " + numberText(1e-3 * (level.mean() - told)) + " kPa in all channels: " +
+             (is_above ? "told gauge, sent absolute? (" + remedies.absolute : "told absolute, sent gauge? (" + remedies.gauge) + ")";
+  }
+  return "";
+}
+
 double medianInterval(const std::vector<RecordedSample>& samples) {
   std::vector<double> intervals;
   for (size_t i = 1; i < samples.size(); ++i) intervals.push_back(samples[i].time - samples[i - 1].time);
@@ -75,21 +88,11 @@ std::vector<std::string> unitWarnings(const Recording& recording, const Remedies
   }
   if (motion > kPlausibleReach)
     warnings.push_back("the tip moves by " + numberText(motion) + " m: millimetres? (" + remedies.millimetres + ")");
-  // A unit a thousand times larger makes kPa of Pa.
+  const std::string reference = referenceDoubt(recording, remedies);
   if (pressure > 0.0 && pressure < std::max(kLeastPressure, 1e-3 * largest_pressure.value_or(0.0)))
     warnings.push_back("no pressure is above " + numberText(pressure) + " Pa: another unit? (" + remedies.pressure_unit + ")");
-
-  const double atmosphere = recording.absolute ? kAtmospherePa : 0.0;
-  for (const Pressures& level : {restPressures(recording), lowestTenth(recording)}) {
-    const double mean = level.mean() - atmosphere;
-    const auto isNear = [&](double offset) { return ((level.array() - atmosphere - offset).abs() < kNearAtmosphere).all(); };
-    const bool is_above = isNear(kAtmospherePa), is_below = isNear(-kAtmospherePa);
-    if (!is_above && !is_below) continue;
-    warnings.push_back("at rest " + numberText(1e-3 * mean) + " kPa in all channels: " +
-                       (is_above ? "told gauge, sent absolute? (" + remedies.absolute
-                                 : "told absolute, sent gauge? (" + remedies.gauge) + ")");
-    break;
-  }
+  else if (!reference.empty())  // numbers of another unit say nothing of it
+    warnings.push_back(reference);
   const double interval = medianInterval(recording.samples);
   if (interval > kLongestInterval)
     warnings.push_back("samples are " + numberText(interval) + " s apart: time in milliseconds?" +
