@@ -51,7 +51,8 @@ std::optional<Value> newest(const std::map<double, Value>& track, double time) {
   return std::prev(after)->second;
 }
 
-const Remedies kRemedies{"--position-unit mm", "--pressure-unit", "--pressure-reference gauge", "--pressure-reference absolute", ""};
+const Remedies kRemedies{"--position-unit mm", "--pressure-unit", "--pressure-reference gauge", "--pressure-reference absolute",
+                         ""};
 
 }  // namespace
 

@@ -36,7 +36,8 @@ std::string referenceDoubt(const Recording& recording, const Remedies& remedies)
     const bool is_above = isNear(kAtmospherePa);
     if (is_above || isNear(-kAtmospherePa))
       return "at rest " + numberText(1e-3 * (level.mean() - told)) + " kPa in all channels: " +
-             (is_above ? "told gauge, sent absolute? (" + remedies.absolute : "told absolute, sent gauge? (" + remedies.gauge) + ")";
+             (is_above ? "told gauge, sent absolute? (" + remedies.absolute
+                       : "told absolute, sent gauge? (" + remedies.gauge) + ")";
   }
   return "";
 }

@@ -16,6 +16,7 @@
 #include "part_file.h"
 #include "live_stiffness/rod/scene_file.h"
 #include "parameter_options.h"
+#include "recording_help.h"
 #include "recording_reader.h"
 
 namespace po = boost::program_options;
@@ -73,7 +74,8 @@ int main(int argc, char** argv) {
   addOptions(options, filter);
   force_sensor.addTo(options);
   reader.addOptionsTo(options);
-  return runProgram({argv, argv + argc}, kHelp, options, {{"scene", 1}, {"recording", 1}}, [&](const po::variables_map&) {
+  return runProgram({argv, argv + argc}, kHelp + kRecordingHelp, options, {{"scene", 1}, {"recording", 1}},
+                    [&](const po::variables_map&) {
     const ForceSensorMount mount = force_sensor.mount();
     const Recording recorded = reader.load(recording_path);
     const Scene scene = loadSceneFile(scene_path);

@@ -11,6 +11,7 @@
 #include "bags/output_bag.h"
 #include "live_stiffness/section/channel_map.h"
 #include "progress_bar.h"
+#include "recording_help.h"
 
 namespace po = boost::program_options;
 using namespace live_stiffness;
@@ -73,7 +74,7 @@ int main(int argc, char** argv) {
     ("bag", po::value(&bag_path)->required(), "bag to write")
     ("scene", po::value(&scene_path), "scene of the recorded robot, for --registration")
     ("registration", po::value(&registration_path), "also fit base and sensor to the recording and write them here");
-  return runProgram({argv, argv + argc}, kHelp, options, {{"recording", 1}, {"bag", 1}},
+  return runProgram({argv, argv + argc}, kHelp + kRecordingHelp, options, {{"recording", 1}, {"bag", 1}},
                     [&](const po::variables_map& values) {
     if (values.count("scene") != values.count("registration"))
       throw ConfigurationError("options", {"--scene and --registration belong together: give both or none"});

@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <sstream>
 
 #include "live_stiffness/checks.h"
+#include "programs/recording_help.h"
 
 namespace live_stiffness {
 namespace {
@@ -96,7 +99,7 @@ TEST(Recording, EachKindOfReasonIsSaidOnce) {
   for (const auto& [lost, reason] : kinds) {
     std::string csv = kHeader;
     for (int i = 0; i < 40; ++i)
-      csv += std::to_string(0.1 * i) + ",1e5," + (i < 10 || i > 30 ? "1,2," + std::to_string(0.01 * i) + ",1,0,0,0" : lost) + "\n";
+      csv += std::to_string(0.1 * i) + ",1e5," + (i < 10 || i > 30 ? "1,2,3,1,0,0,0" : lost) + "\n";
     csv += "3.5,1e5" + kPose + "3.6,1e5" + kPose;
     const Recording recording = parseRecording(csv, "test");
     EXPECT_EQ(recording.samples.size(), 19u);
@@ -109,7 +112,8 @@ TEST(Recording, EachKindOfReasonIsSaidOnce) {
 TEST(Recording, IsTheSameFromSpreadsheets) {
   const std::string header = "time_s;pressure_1_pa;tip_x_m;tip_y_m;tip_z_m;tip_qw;tip_qx;tip_qy;tip_qz";
   const Recording recording = parseRecording(
-      "\xEF\xBB\xBFsep=;\r\n% Aurora\r\n" + header + ";\r\ns;Pa;m;m;m;;;;\r\n0,5;2e4;0,1;\"0,2\";0,3;1;0;0;0;\r\n", "test");
+      "\xEF\xBB\xBFsep=;\r\n% Aurora\r\n" + header + ";\r\ns;Pa;m;m;m;;;;\r\n"
+      "0,5;2e4;0,1;\"0,2\";0,3;1;0;0;0;\r\n", "test");
   ASSERT_EQ(recording.samples.size(), 1u);
   EXPECT_EQ(recording.samples[0].time, 0.5);
   EXPECT_EQ(recording.samples[0].line, 5);
@@ -188,12 +192,33 @@ TEST(Recording, WarnsOfUnitsAndReferencesThatNoRobotHas) {
   EXPECT_TRUE(warns(doubts(gauge, "0,0", "60,0"), "no pressure is above 60 Pa: another unit? (name the columns pressure_1_kpa"));
   EXPECT_TRUE(doubts(gauge, "0,0", "1500,0").empty());
   EXPECT_TRUE(warns(doubts(gauge, "0,0", "1500,0", 0.6, 2e6), "no pressure is above 1500 Pa"));
-  EXPECT_TRUE(warns(doubts(gauge, "101e3,102e3", "120e3,99e3"), "at rest 101.5 kPa in all channels: told gauge, sent absolute?"));
+  EXPECT_TRUE(warns(doubts(gauge, "101e3,102e3", "120e3,99e3"),
+                    "at rest 101.5 kPa in all channels: told gauge, sent absolute? (name the columns pressure_1_pa_abs)"));
   EXPECT_TRUE(warns(doubts(gauge, "150e3,150e3", "101e3,99e3"), "at rest 100 kPa")) << "it is at rest at the end";
   EXPECT_TRUE(warns(doubts(gauge, "-101e3,-101e3", "0,-101e3"), "told absolute, sent gauge? (name the columns pressure_1_pa,"));
   EXPECT_TRUE(warns(doubts(absolute, "0,100", "5e4,100"), "told absolute, sent gauge?"));
   EXPECT_TRUE(doubts(gauge, "101e3,0", "120e3,0").empty()) << "one channel only";
-  EXPECT_TRUE(warns(doubts(gauge, "0,0", "2e4,0", 25.0), "samples are 25 s apart: time in milliseconds? (name the column time_ms)"));
+  EXPECT_TRUE(warns(doubts(gauge, "0,0", "2e4,0", 25.0), "samples are 25 s apart: time in milliseconds? (name the column"));
+}
+
+// Each word of --help that is a column is read as one.
+TEST(Recording, HasTheColumnsThatHelpNames) {
+  std::istringstream words(kRecordingHelp);
+  std::string names, values, word;
+  const char* const parts[] = {"time_", "pressure_", "tip_", "base_", "force_", "torque_"};
+  int count = 0;
+  while (words >> word) {
+    word.erase(std::remove(word.begin(), word.end(), ','), word.end());
+    const auto begins = [&](const char* part) { return word.find(part) == 0; };
+    const bool is_column = std::any_of(std::begin(parts), std::end(parts), begins);
+    if (!is_column || word == "time_ms" || word == "pressure_1_pa_abs") continue;  // one of two
+    names += (count == 0 ? "" : ",") + word;
+    values += count++ == 0 ? "0" : word.find("_qw") != std::string::npos ? ",1" : word.find("pressure") == 0 ? ",2e4" : ",0";
+  }
+  EXPECT_EQ(count, 1 + 2 + 7 + 7 + 6);
+  const Recording recording = parseRecording(names + "\n" + values + "\n", "test");
+  EXPECT_TRUE(recording.warnings.empty()) << recording.warnings.front();
+  EXPECT_TRUE(recording.samples.at(0).base_orientation && recording.samples[0].tip_wrench);
 }
 
 TEST(Recording, OfAnotherFormatIsRefusedAsThat) {
