@@ -92,6 +92,12 @@ Columns findColumns(CsvTable& table, std::vector<std::string>& warnings, FaultLi
 
 // Lines that are left out, by kind of reason.
 class LeftOut {
+  struct Kind {
+    std::string name;
+    long count, line;
+    std::string reason;  // of the first
+  };
+
  public:
   void add(long line, const std::string& reason) {
     // Texts of a kind differ in what lies between their first and last number, or quoted text, only.
@@ -111,11 +117,6 @@ class LeftOut {
   }
 
  private:
-  struct Kind {
-    std::string name;
-    long count, line;
-    std::string reason;  // of the first
-  };
   std::vector<Kind> kinds_;
 };
 
