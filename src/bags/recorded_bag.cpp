@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "estimation/plausibility.h"
 #include "live_stiffness/checks.h"
 #include "parameter_reader.h"
 #include "ros/pressure_input.h"
@@ -80,6 +81,7 @@ const Value* newest(const std::map<double, Value>& track, double time, double ol
   return &std::prev(after)->second;
 }
 
+
 }  // namespace
 
 bool isBag(const std::string& path) {
@@ -127,8 +129,8 @@ Recording loadRecordedBags(const std::vector<std::string>& paths, const BagTopic
     throw ConfigurationError("bag " + recording.name,
                              {"no pose on " + topics.pose + " with pressures on " + topics.pressures + " before it" +
                               (warnings.empty() ? "; see rosbag info, and --pressures and --pose" : ": " + oneLine(warnings))});
-  const std::string doubt = tracks.pressure_input.doubt();
-  if (!doubt.empty()) warnings.push_back(doubt);
+  const std::optional<double> range = scene != nullptr ? std::optional(fullRange(*scene)) : std::nullopt;
+  for (const std::string& warning : unitWarnings(recording, kInputRemedies, range)) warnings.push_back(warning);
   return recording;
 }
 

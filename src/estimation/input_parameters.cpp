@@ -2,15 +2,6 @@
 
 namespace live_stiffness {
 
-double pascalsPerUnit(const std::string& unit) {
-  if (unit == "Pa") return 1.0;
-  if (unit == "kPa") return 1e3;
-  if (unit == "bar") return 1e5;
-  if (unit == "mbar") return 1e2;
-  if (unit == "psi") return 6894.757293168361;
-  return 0.0;
-}
-
 double PressureFormat::gauge(double value) const {
   return value * pascalsPerUnit(unit) - (isAbsolute() ? atmosphere : 0.0);
 }

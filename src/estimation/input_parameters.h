@@ -7,6 +7,7 @@
 
 #include "live_stiffness/estimation/registration.h"
 #include "live_stiffness/parameters.h"
+#include "units.h"
 
 namespace live_stiffness {
 
@@ -24,11 +25,6 @@ struct PressureFormat {
   bool isAbsolute() const { return reference == "absolute"; }
   double gauge(double value) const;  // Pa
 };
-
-// Pa per unit for Pa, kPa, bar, mbar, psi; 0 for any other name.
-double pascalsPerUnit(const std::string& unit);
-// m per unit for m, mm.
-inline double metresPerUnit(const std::string& unit) { return unit == "mm" ? 1e-3 : 1.0; }
 
 // Frames that a message may refer to: the fixed one and, unless empty, that of the body which the robot moves.
 struct FrameNames {

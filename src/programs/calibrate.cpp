@@ -17,6 +17,7 @@
 #include "parameter_options.h"
 #include "part_file.h"
 #include "live_stiffness/rod/scene_file.h"
+#include "recording_help.h"
 #include "recording_reader.h"
 #include "sample_options.h"
 #include "progress_bar.h"
@@ -209,7 +210,8 @@ int run(const Arguments& a, const std::string& command) {
 int main(int argc, char** argv) {
   Arguments a;
   const po::options_description options = describe(a);
-  return runProgram({argv, argv + argc}, kHelp, options, {{"scene", 1}, {"recordings", -1}}, [&](const po::variables_map&) {
+  return runProgram({argv, argv + argc}, kHelp + kRecordingHelp, options, {{"scene", 1}, {"recordings", -1}},
+                    [&](const po::variables_map&) {
     std::string command = "calibrate";
     for (int k = 1; k < argc; ++k) command += std::string(" ") + argv[k];
     return run(a, command);

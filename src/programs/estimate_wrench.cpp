@@ -16,6 +16,7 @@
 #include "live_stiffness/estimation/tip_wrench_estimator.h"
 #include "part_file.h"
 #include "live_stiffness/rod/scene_file.h"
+#include "recording_help.h"
 #include "recording_reader.h"
 
 namespace po = boost::program_options;
@@ -100,7 +101,8 @@ int main(int argc, char** argv) {
   force_sensor.addTo(options);
   reader.addOptionsTo(options);
   reader.options().add<WrenchParameters>(options, [](auto& fields, auto visit) { forEachParameter(fields, visit); });
-  return runProgram({argv, argv + argc}, kHelp, options, {{"scene", 1}, {"recording", -1}}, [&](const po::variables_map& given) {
+  return runProgram({argv, argv + argc}, kHelp + kRecordingHelp, options, {{"scene", 1}, {"recording", -1}},
+                    [&](const po::variables_map& given) {
     reader.configure(given);
     const WrenchParameters parameters = wrenchParameters(reader.values());
     const Scene scene = loadSceneFile(scene_path);

@@ -9,6 +9,7 @@
 #include "live_stiffness/rod/scene_file.h"
 #include "bags/output_bag.h"
 #include "progress_bar.h"
+#include "recording_help.h"
 #include "recording_reader.h"
 #include "ros/conversions.h"
 
@@ -75,7 +76,7 @@ int main(int argc, char** argv) {
     ("bag", po::value(&bag_path)->required(), "bag to write")
     ("scene", po::value(&scene_path), "scene of the recorded robot, for --registration")
     ("registration", po::value(&registration_path), "also fit base and sensor to the recording and write them here");
-  return runProgram({argv, argv + argc}, kHelp, options, {{"recording", 1}, {"bag", 1}},
+  return runProgram({argv, argv + argc}, kHelp + kRecordingHelp, options, {{"recording", 1}, {"bag", 1}},
                     [&](const po::variables_map& values) {
     reader.configure(values);
     if (values.count("scene") != values.count("registration"))

@@ -10,6 +10,7 @@
 #include "live_stiffness/checks.h"
 #include "estimation/tracker_delay.h"
 #include "live_stiffness/rod/scene_file.h"
+#include "recording_help.h"
 #include "recording_reader.h"
 #include "sample_options.h"
 
@@ -48,7 +49,7 @@ int main(int argc, char** argv) {
     ("tracker-delay-s", po::value(&tracker_delay)->default_value(0.0), "delay of the tracker relative to the pressures")
     ("fit-delay", po::bool_switch(&fit_delay), "fit that delay too, to the samples in motion");
   reader.addOptionsTo(options);
-  return runProgram({argv, argv + argc}, kHelp, options, {{"scene", 1}, {"recording", 1}, {"output", 1}},
+  return runProgram({argv, argv + argc}, kHelp + kRecordingHelp, options, {{"scene", 1}, {"recording", 1}, {"output", 1}},
                     [&](const po::variables_map& given) {
     reader.configure(given);
     FaultList faults("options");

@@ -83,6 +83,7 @@ long solveTable(InputTable& table, const std::vector<std::string>& further_colum
   std::vector<std::string> columns = resultColumns();
   columns.insert(columns.end(), further_columns.begin(), further_columns.end());
   for (size_t k = 0; k < columns.size(); ++k) std::printf("%s%c", columns[k].c_str(), k + 1 < columns.size() ? ',' : '\n');
+  if (!table.note().empty()) std::cerr << table.note() << '\n';
   InputRow input;
   while (table.next(input)) {
     ResultRow row;

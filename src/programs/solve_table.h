@@ -27,6 +27,8 @@ class InputTable {
 
   // The next row that is not blank; false at the end. A row with a fault is returned, with `fault` set.
   bool next(InputRow& row);
+  // Says that there is a row of units; see CsvTable.
+  const std::string& note() const { return table_.note(); }
 
  private:
   CsvTable table_;

@@ -23,6 +23,7 @@
 #include "live_stiffness/estimation/stiffness_estimator.h"
 #include "live_stiffness/estimation/tip_wrench_estimator.h"
 #include "ros/parsed.h"
+#include "units.h"
 
 namespace live_stiffness {
 

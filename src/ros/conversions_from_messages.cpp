@@ -8,12 +8,11 @@
 #include <cmath>
 #include <vector>
 
+#include "estimation/plausibility.h"
 #include "parameter_reader.h"
 
 namespace live_stiffness {
 namespace {
-
-constexpr double kFarthest = 1000.0;  // m; outside the range of any tracker, also if it is millimetres
 
 template <class Value>
 Parsed<Value> failed(const std::string& error) {
@@ -78,14 +77,7 @@ class ArrayBytes {
 };
 
 std::string pressureError(double value, const PressureFormat& format) {
-  if (!std::isfinite(value)) return "is " + numberText(value) + ": must be finite";
-  if (format.isAbsolute() && value < 0.0)
-    return "is " + numberText(value) + ": an absolute pressure must not be negative; is it gauge? "
-           "(set ~pressure_reference: gauge)";
-  constexpr double kLargest = 1e8;  // Pa; a glitch beyond would stay in the model of creep for long
-  if (!(std::abs(format.gauge(value)) <= kLargest))
-    return "is " + numberText(format.gauge(value)) + " Pa: must be within " + numberText(kLargest) + " Pa; in another unit?";
-  return "";
+  return pressureFault(value, format.isAbsolute(), format.gauge(value), kInputRemedies);
 }
 
 // Numbers of a Stamped (header and an array of float64), a Float64MultiArray or a Float32MultiArray.
@@ -130,15 +122,8 @@ Parsed<TrackedPose> checkedPose(const std_msgs::Header& header, const Xyz& p, co
                                 double position_unit) {
   const Vector3 position = fromXyz(p);
   const Eigen::Quaterniond rotation(q.w, q.x, q.y, q.z);
-  if (!position.allFinite() || !rotation.coeffs().allFinite())
-    return failed<TrackedPose>("pose is not finite: the tracker does not see its sensor");
-  if (position_unit * position.norm() > kFarthest)
-    return failed<TrackedPose>("position is " + numberText(position_unit * position.norm()) +
-                               " m away: must be within " + numberText(kFarthest) + " m");
-  const double norm = rotation.norm();
-  if (norm < 1e-6) return failed<TrackedPose>("quaternion is zero: the tracker does not see its sensor");
-  if (std::abs(norm - 1.0) > 0.05)
-    return failed<TrackedPose>("quaternion has length " + numberText(norm) + ": must be 1");
+  const std::string fault = poseFault(position_unit * position, rotation);
+  if (!fault.empty()) return failed<TrackedPose>(fault);
   Parsed<TrackedPose> parsed;
   parsed.stamp = header.stamp;
   parsed.value = {{rotation.normalized().toRotationMatrix(), position_unit * position}, withoutSlash(header.frame_id), ""};

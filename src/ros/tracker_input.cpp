@@ -3,7 +3,7 @@
 #include <ros/console.h>
 #include <tf2/exceptions.h>
 
-#include <algorithm>
+#include "estimation/plausibility.h"
 
 namespace live_stiffness {
 
@@ -53,7 +53,6 @@ std::string TrackerInput::otherTool(const TrackedPose& tracked) {
 }
 
 std::optional<Parsed<Pose>> TrackerInput::accept(const Parsed<TrackedPose>& parsed) {
-  constexpr double kPlausibleReach = 5.0;  // m from tracker and base; positions farther away are in millimetres
   const Pose& X_AS = parsed.value.pose;
   std::string error = parsed.error;
   if (error.empty()) {
@@ -63,10 +62,7 @@ std::optional<Parsed<Pose>> TrackerInput::accept(const Parsed<TrackedPose>& pars
       ++others_[child.empty() ? parsed.value.frame : child];
       return std::nullopt;
     }
-    const double distance = X_AS.p.norm();
-    if (std::min(distance, (registration_.X_AB.inverse() * X_AS).p.norm()) > kPlausibleReach)
-      error = "position is " + numberText(distance) + " m away: must be within " + numberText(kPlausibleReach) +
-              " m of tracker or base; millimetres? (set aurora_position_unit: mm)";
+    error = reachFault(X_AS.p.norm(), (registration_.X_AB.inverse() * X_AS).p.norm(), kInputRemedies);
   }
   if (!error.empty()) {
     status_.reject(error);

@@ -64,6 +64,15 @@ TEST(ComplianceTable, FindsColumnsByName) {
   EXPECT_EQ(rows[0].compliance(0, 1), 4.0);
 }
 
+TEST(ComplianceTable, IsReadFromASpreadsheet) {
+  const auto rows = parseComplianceTable(
+      "\xEF\xBB\xBFpressure_1_pa;c11_m_per_n;c21_m_per_n;c31_m_per_n;c12_m_per_n;c22_m_per_n;c32_m_per_n;c13_m_per_n;c23_m_per_n;"
+      "c33_m_per_n\r\nPa;m/N;;;;;;;;\r\n4e4;0,5;0;0;0;0,25;0;0;0;0,125\r\n", "t", 1);
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].name, "t line 3");
+  EXPECT_EQ(rows[0].compliance.diagonal(), Vector3(0.5, 0.25, 0.125));
+}
+
 TEST(ComplianceTable, ListsEveryFault) {
   try {
     parseComplianceTable("pressure_1_pa,c11_m_per_n\n1,2\n", "t", 2);

@@ -16,6 +16,9 @@ inline void requireSound(const Recording& recording) {
     require(sample.pressures.size() == recording.channelCount(), "the number of channels stays");
     require(sample.pressures.allFinite() && sample.tip_position.allFinite(), "values are finite");
     require(std::abs(sample.tip_orientation.norm() - 1.0) < 1e-12, "orientations are of unit norm");
+    require(!sample.base_orientation || std::abs(sample.base_orientation->norm() - 1.0) < 1e-12, "of the base, too");
+    require(sample.unchanged_for >= 0.0 && std::isfinite(sample.unchanged_for),
+            "a pose is repeated for a time");
     require(!sample.tip_wrench || sample.tip_wrench->allFinite(), "wrenches are finite");
     last = &sample;
   }

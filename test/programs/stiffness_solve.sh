@@ -24,6 +24,16 @@ solve 'p_1_pa,p_2_pa,p_3_pa,p_4_pa,p_5_pa,p_6_pa\n6e4,6e4,0,0,0,0\n1,2\n\nnan,0,
 for line in 3 5 6 7; do grep -q "^line $line: " "$work/err" || fail "no message for line $line"; done
 grep -qi nan "$work/out" && fail "NaN in the output"
 
+# A table from a spreadsheet: the same numbers, and a row of units is said.
+columns='p_1_pa;p_2_pa;p_3_pa;p_4_pa;p_5_pa;p_6_pa'
+solve 'p_1_pa,p_2_pa,p_3_pa,p_4_pa,p_5_pa,p_6_pa\n60000.5,0,0,0,0,0\n'
+cut -d, -f1,2,4- "$work/out" >"$work/plain"
+solve '\xEF\xBB\xBF'"$columns"';\r\nPa;Pa;Pa;Pa;Pa;Pa;\r\n60000,5;0;0;0;0;0;\r\n'
+[ $status = 0 ] && cut -d, -f1,2,4- "$work/out" | cmp - "$work/plain" || fail "a table from a spreadsheet"
+grep -q "^line 2 has no number and is taken as a row of units" "$work/err" || fail "the row of units is not said"
+solve "$columns"'\nkPa;;;;;\n60;0;0;0;0;0\n'
+[ $status = 2 ] && grep -q "column p_1_pa has 'kPa' in the row of units" "$work/err" || fail "units that contradict the name"
+
 # The four models and their contradictions; PCC ignores the weight, so its compliance is that of the closed form.
 for model in lpcc npcc lcm ncm; do
   solve 'p_1_pa,p_2_pa,p_3_pa,p_4_pa,p_5_pa,p_6_pa\n9e4,9e4,0,0,0,0\n' --model $model

@@ -2,11 +2,12 @@
 // A recording of a robot: chamber pressures, tracker poses and, if there is one, the tip force sensor over time.
 //
 // Read from CSV with one header line. Columns are found by name, in any order; others are ignored with a warning:
-//   time_s                                    strictly increasing
-//   pressure_K_pa_abs or pressure_K_pa        K = 1, 2, ... without gaps; all absolute or all gauge
-//   tip_x_m .. tip_z_m, tip_qw .. tip_qz      tracker sensor on the tip, in the tracker frame A
-//   base_x_m .. base_z_m                      optional: tracker sensor at the base, in A
+//   time_s                                    increasing; or time_ms
+//   pressure_K_pa_abs or pressure_K_pa        K = 1, 2, ... without gaps; all absolute or all gauge; also _kpa, _bar, ...
+//   tip_x_m .. tip_z_m, tip_qw .. tip_qz      tracker sensor on the tip, in the tracker frame A; no quaternion: positions only
+//   base_x_m .. base_z_m, base_qw .. base_qz  optional: tracker sensor at the base, in A; positions also in _mm
 //   force_x_n .. force_z_n, torque_x_nm .. torque_z_nm    optional: tip force/torque sensor
+// docs/recordings.md has all of them, and what the file may look like.
 
 #include <Eigen/Geometry>
 #include <optional>
@@ -23,6 +24,7 @@ struct RecordedSample {
   double time = 0.0;   // s
   Pressures pressures;  // one per channel, Pa; absolute or gauge as Recording::absolute says
   std::optional<Vector3> base_position;  // p_A of the base sensor, m
+  std::optional<Eigen::Quaterniond> base_orientation;  // q_A of the base sensor
   Vector3 tip_position = Vector3::Zero();  // p_AS of the tip sensor, m
   // Orientation q_AS of the tip sensor, unit norm. Of the two signs of one rotation it has the one that is nearer to the
   // previous sample, so that the components are continuous in time.
@@ -41,21 +43,27 @@ struct Recording {
   std::string wrench_frame;             // whose axes the force sensor's wrenches have; empty: not told
   bool absolute = false;                // pressures are absolute; see gaugePressures()
   std::vector<RecordedSample> samples;  // in order of time, never empty
-  std::vector<std::string> warnings;    // "line N: reason" for every line left out, and for ignored columns
+  std::vector<std::string> warnings;    // each kind of reason why lines were left out, ignored columns, doubts about units
 
   int channelCount() const { return static_cast<int>(samples.front().pressures.size()); }
 };
 
-// Reads a file. A line with a missing, extra, unreadable or non-finite value, a time that does not increase, or a zero
-// quaternion is left out with a warning. Throws ConfigurationError (all faults) when the file cannot be read, the
-// header lacks or repeats a column, or no line is left.
-Recording loadRecording(const std::string& path);
+// Reads a file. A line with a missing, extra, unreadable or non-finite value, a time that does not increase, or what no sensor
+// measures (poseFault() and others in estimation/plausibility.h) is left out with a warning. largest_pressure: that the scene
+// can take, Pa (gauge), for warnings of another unit; none: not known. Throws ConfigurationError (all faults) when the file
+// cannot be read, the header lacks or repeats a column, or no line is left.
+Recording loadRecording(const std::string& path, std::optional<double> largest_pressure = std::nullopt);
 
 // The same from text; `name` stands for the path in messages.
-Recording parseRecording(const std::string& csv, const std::string& name);
+Recording parseRecording(const std::string& csv, const std::string& name,
+                         std::optional<double> largest_pressure = std::nullopt);
 
-// Gauge pressures of each sample (Pa). Absolute recording: minus the mean of each channel over the first half second, in
-// which the robot must be at rest (the first sample only, if a sample period is longer). Gauge recording: as they are.
+// The mean of each channel over the first half second (the first sample only, if a sample period is longer); gauge or absolute
+// as recorded.
+Pressures restPressures(const Recording& recording);
+
+// Gauge pressures of each sample (Pa). Absolute recording: minus restPressures(), so that the robot must be at rest in the first
+// half second. Gauge recording: as they are.
 std::vector<Pressures> gaugePressures(const Recording& recording);
 
 // Indices of the quasi-static samples, ascending; may be empty. The robot moves between two samples whose pressures differ by
