@@ -40,10 +40,10 @@ double ContactOutput::forceDeviation() const {
 }
 
 visualization_msgs::MarkerArray ContactOutput::markers(const MarkerStyle& style, const ros::Time& stamp) const {
-  if (!inContact()) return makeContactMarkers(Vector3::Zero(), Vector3::Zero(), 0.0, false, 1.0, style, stamp);
+  if (!inContact()) return {};
   const TipWrenchEstimate& estimate = *estimator_->estimate();
-  return makeContactMarkers(estimate.X_BT.p, linear(estimate.wrench), forceDeviation(), true,
-                            parameters_.contact_arrow_scale, style, stamp);
+  return makeContactMarkers(estimate.X_BT.p, linear(estimate.wrench), forceDeviation(), parameters_.contact_arrow_scale,
+                            style, stamp);
 }
 
 void ContactOutput::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {

@@ -58,6 +58,7 @@ NodeParameters loadNodeParameters(const ros::NodeHandle& private_node) {
   NodeParameters::forEachParameter(parameters, read);
   read.file(kSceneFile, loadSceneFile, parameters.scene, true);
   read.file(kRegistrationFile, loadRegistrationFile, parameters.registration);
+  parameters.is_registered = !parameters.registration_file.empty();
   read.warnOfUnknown("stiffness_node");
   complete(parameters, faults);
   return parameters;

@@ -42,6 +42,7 @@ struct NodeParameters {
   double pose_timeout = kPoseTimeout.standard;               // s
   Registration registration;      // in use: loaded, until ~register applies another one
   std::string registration_file;  // that it was loaded from; empty: none
+  bool is_registered = false;     // a registration was given, or applied by ~register
   double registration_buffer = kRegistrationBuffer.standard;  // s of the past that ~register can use
   double tip_wrench_timeout = kTipWrenchTimeout.standard;     // s; 0: keep the last one for ever
 

@@ -57,7 +57,8 @@ class ParameterReader {
   void file(const FileParameter& parameter, Load load, Value& value, bool is_required = false) {
     std::string path;
     read(parameter.key, "a text", path);
-    if (path.empty() && is_required) faults_.add(std::string(parameter.key) + " is missing: must be the path of a file");
+    if (path.empty() && is_required)
+      faults_.add(std::string(parameter.key) + " is missing: must be the path of a file (scene:=FILE of a launch file)");
     if (path.empty()) return;
     try {
       value = load(path);

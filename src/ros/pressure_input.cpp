@@ -4,14 +4,11 @@
 #include <cmath>
 
 namespace live_stiffness {
-namespace {
 
 ChannelMap makeChannelMap(const NodeParameters& parameters) {
   if (!parameters.channel_of_chamber.empty()) return ChannelMap(parameters.channel_of_chamber);
   return ChannelMap::even(parameters.scene.chamberCount(), parameters.scene.chamberCount());
 }
-
-}  // namespace
 
 PressureInput::PressureInput(const NodeParameters& parameters)
     : parameters_(parameters),
@@ -22,8 +19,8 @@ PressureInput::PressureInput(const NodeParameters& parameters)
       arrivals_(parameters.pressure_topics.size()),
       stamps_(parameters.pressure_topics.size()) {}
 
-void PressureInput::updateChannels() {
-  channel_map_ = makeChannelMap(parameters_);
+void PressureInput::setChannels(ChannelMap channels) {
+  channel_map_ = std::move(channels);
   status_.setCount(channel_map_.channelCount());
 }
 

@@ -14,6 +14,9 @@
 
 namespace live_stiffness {
 
+// Of channel_of_chamber; without it one channel per chamber of the scene. Throws ConfigurationError.
+ChannelMap makeChannelMap(const NodeParameters& parameters);
+
 class PressureInput {
  public:
   // parameters must outlive the input.
@@ -24,8 +27,8 @@ class PressureInput {
   // The same if each channel has its own topic, one of ~pressure_topics; also none unless every channel has sent a good
   // message within ~pressure_timeout_s. channel: from 0.
   std::optional<Parsed<Pressures>> readChannel(const sensor_msgs::FluidPressure& message, size_t channel);
-  // Call it when the scene or channel_of_chamber in the parameters has changed.
-  void updateChannels();
+  // Another scene or channel_of_chamber.
+  void setChannels(ChannelMap channels);
 
   int channelCount() const { return channel_map_.channelCount(); }
   ArrayStatus& status() { return status_; }

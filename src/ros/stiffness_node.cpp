@@ -25,8 +25,8 @@ StiffnessNode::StiffnessNode(const ros::NodeHandle& node, const ros::NodeHandle&
       private_node_(onQueue(private_node, nullptr)),
       estimate_publisher_(private_node_.advertise<StiffnessEstimate>("estimate", 100)),
       backbone_publisher_(private_node_.advertise<nav_msgs::Path>("backbone", 1)),
-      marker_publisher_(private_node_.advertise<visualization_msgs::MarkerArray>("markers", 1)),
       error_publisher_(private_node_.advertise<TrackingError>("tracking_error", 10)),
+      marker_publisher_(private_node_, parameters_.frames.base),
       estimator_(std::make_shared<StiffnessEstimator>(parameters_.scene, parameters_.model, parameters_.estimator)),
       pressure_input_(parameters_),
       wrench_input_("tip_wrench", parameters_.frames, parameters_.tip_wrench_timeout),
@@ -36,12 +36,13 @@ StiffnessNode::StiffnessNode(const ros::NodeHandle& node, const ros::NodeHandle&
       registration_(private_node_, model(), parameters_, [this](const Registration& registration) {
         const Lock lock(tracking_mutex_);
         parameters_.registration = registration;
+        parameters_.is_registered = true;
         contact_.reset();
       }),
       diagnostics_(node_, private_node_) {
   if (parameters_.tip_handle.enabled)
     tip_handle_ = std::make_unique<TipHandle>(private_node_, parameters_.style, parameters_.tip_handle,
-                                              marker_publisher_, [this] { return snapshot(); });
+                                              [this] { return snapshot(); });
   addDiagnostics();
   addServices();
   subscribe(node);
@@ -192,7 +193,7 @@ void StiffnessNode::compare(const TipMeasurement& measured) {
 
 void StiffnessNode::onMarkers(const ros::WallTimerEvent&) {
   const EstimateSnapshot newest = snapshot();
-  if (newest.estimate == nullptr) return;
+  if (newest.estimate == nullptr) return marker_publisher_.publish({});
   const Estimate& estimate = *newest.estimate;
   const MarkerStyle& style = parameters_.style;
   std::optional<Pose> measured_tip;
@@ -207,8 +208,8 @@ void StiffnessNode::onMarkers(const ros::WallTimerEvent&) {
   if (parameters_.show_eigenscrews)
     append(markers,
            makeEigenscrewMarkers(estimate, newest.stale, parameters_.eigenscrew_length, style, newest.stamp));
-  marker_publisher_.publish(markers);
-  if (tip_handle_) tip_handle_->update();
+  if (tip_handle_) append(markers, tip_handle_->update());
+  marker_publisher_.publish(std::move(markers));
   backbone_publisher_.publish(toPath(estimate.shape, estimate.solution.X_BT, newest.stamp, style.frame));
 }
 

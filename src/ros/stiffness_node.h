@@ -25,6 +25,7 @@
 #include "estimation/motion_history.h"
 #include "ros/contact_output.h"
 #include "ros/estimate_snapshot.h"
+#include "ros/marker_publisher.h"
 #include "ros/node_parameters.h"
 #include "ros/pose_output.h"
 #include "ros/pressure_input.h"
@@ -94,7 +95,8 @@ class StiffnessNode {
   ros::CallbackQueue estimation_queue_, tracking_queue_;
   std::mutex estimation_mutex_, tracking_mutex_;
   ros::NodeHandle node_, private_node_;
-  ros::Publisher estimate_publisher_, backbone_publisher_, marker_publisher_, error_publisher_;
+  ros::Publisher estimate_publisher_, backbone_publisher_, error_publisher_;
+  MarkerPublisher marker_publisher_;
 
   // Of the estimation thread.
   std::shared_ptr<StiffnessEstimator> estimator_;
