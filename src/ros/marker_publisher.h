@@ -2,6 +2,7 @@
 // Publishes pictures on ~markers. Viewers keep a marker until they are told to delete it, also when its node ends.
 
 #include <ros/node_handle.h>
+#include <ros/single_subscriber_publisher.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <set>
