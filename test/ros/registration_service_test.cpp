@@ -82,7 +82,7 @@ TEST_F(RegistrationServiceTest, LookingChangesNothingAndApplyingMovesTransformAn
   EXPECT_TRUE(looked.success) << looked.message;
   EXPECT_FALSE(looked.applied);
   EXPECT_EQ(looked.saved_to, "");
-  EXPECT_TRUE(buffer.canTransform("base", "tip", ros::Time(0)));
+  ASSERT_TRUE(waitFor([&] { return buffer.canTransform("base", "tip", ros::Time(0)); }));
   EXPECT_FALSE(buffer.canTransform("aurora", "base", ros::Time(0))) << "before, nobody knows where the base is";
 
   Register::Request request;

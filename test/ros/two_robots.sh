@@ -7,7 +7,17 @@ source "$2/test/support/ros_script.sh"
 echo_one() { timeout 10 rostopic echo -n 1 "$1"; }
 is() { echo_one "/$1/stiffness_node/estimate/stale" | grep -q "$2"; }  # ROBOT True|False
 
-roslaunch -p $port "$source/launch/two_robots.launch" >"$work/roslaunch.log" 2>&1 &
+# rviz needs X; without it the launch file is not asked for it.
+rviz=false
+if command -v rviz >/dev/null && command -v Xvfb >/dev/null; then
+  rviz=true
+  exec {display}< <(exec Xvfb -displayfd 1 -screen 0 800x600x24 2>"$work/Xvfb.log")
+  pids+=($!)
+  read -r -t 20 number <&$display || fail "no display"
+  export DISPLAY=:$number LIBGL_ALWAYS_SOFTWARE=1
+fi
+
+roslaunch -p $port "$source/launch/two_robots.launch" rviz:=$rviz >"$work/roslaunch.log" 2>&1 &
 launch=$!
 pids+=("$launch")
 for robot in left right; do
@@ -17,6 +27,24 @@ done
 left=$(echo_one /left/stiffness_node/estimate/pressure | tr -cd , | wc -c)
 right=$(echo_one /right/stiffness_node/estimate/pressure | tr -cd , | wc -c)
 [ "$left $right" = "5 11" ] || fail "commas between pressures: $left and $right, not those of 6 and 12 chambers"
+
+if [ $rviz = true ]; then
+  echo "- rviz of each: its topics, its base"
+  shows() {  # ROBOT
+    local info topic
+    info=$(rosnode info "/$1/rviz")
+    for topic in markers tip_marker/update; do
+      grep -A3 "topic: /$1/stiffness_node/$topic$" <<<"$info" | grep -q "to: /$1/stiffness_node" || return 1
+    done
+  }
+  for robot in left right; do
+    within 90 "rviz of $robot does not show it" shows $robot
+    roslaunch --args /$robot/rviz "$source/launch/two_robots.launch" rviz:=true | grep -q -- "-f $robot/base" ||
+      fail "fixed frame of $robot"
+  done
+  rosnode kill /left/rviz /right/rviz >"$work/kill.log" 2>&1
+  within 20 "rviz does not end" sh -c "! rosnode list | grep -q rviz"
+fi
 
 echo "- topics: shared are only those that ROS shares"
 shared=$(rostopic list | grep -vE '^/(left|right)/' | sort | xargs)
