@@ -105,7 +105,8 @@ TEST_F(RegistrationServiceTest, LookingChangesNothingAndApplyingMovesTransformAn
     const auto at = buffer.lookupTransform("aurora", "base", ros::Time(0)).transform.translation;
     return (Vector3(at.x, at.y, at.z) - found.X_AB.p).norm() < 1e-9;
   })) << "tf must show the registration applied";
-  EXPECT_TRUE(waitFor([&] { return watched.error && watched.error->distance < 3e-3; })) << "and the tracking error must be measured by it";
+  EXPECT_TRUE(waitFor([&] { return watched.error && watched.error->distance < 3e-3; }))
+      << "and the tracking error must be measured by it";
 }
 
 TEST_F(RegistrationServiceTest, SavesAFileThatTheNodeLoads) {
