@@ -46,7 +46,6 @@ class ShownMarkers {
   Marker deletion(int action) const {
     Marker marker;
     marker.header.frame_id = frame_;
-    marker.pose.orientation.w = 1.0;
     marker.action = action;
     return marker;
   }
