@@ -15,6 +15,7 @@
 #include "parallel/parameters.h"
 #include "programs/parallel_markers.h"
 #include "ros/any_type_subscriber.h"
+#include "ros/marker_publisher.h"
 #include "ros/node_process.h"
 #include "ros/node_parameters.h"
 #include "parameter_reader.h"
@@ -86,10 +87,10 @@ class ParallelNode {
                         parameters_.length_timeout}),
         wrench_input_("platform_wrench", parameters_.frames, parameters_.wrench_timeout),
         pose_output_(private_node, "platform_pose", parameters_.frames),
+        marker_publisher_(private_node, parameters_.frames.base),
         diagnostics_(node, private_node) {
     ros::NodeHandle own(private_node), estimation(node);
     estimate_publisher_ = own.advertise<PlatformEstimate>("estimate", 10);
-    marker_publisher_ = own.advertise<visualization_msgs::MarkerArray>("markers", 1);
     addDiagnostics();
     estimation.setCallbackQueue(&estimation_queue_);
     length_subscriber_.subscribe(estimation, "rod_lengths", 100, &ParallelNode::onLengths, this);
@@ -190,7 +191,8 @@ class ParallelNode {
   ros::Time length_stamp_;    // of the newest usable lengths
   ros::Time estimate_stamp_;  // of the lengths of the last good estimate
 
-  ros::Publisher estimate_publisher_, marker_publisher_;
+  ros::Publisher estimate_publisher_;
+  MarkerPublisher marker_publisher_;
   NodeDiagnostics diagnostics_;
 
   // Last, so that no callback runs before the rest exists; and the spinner stops first.

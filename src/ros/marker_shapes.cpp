@@ -80,12 +80,12 @@ void Picture::addBall(const std::string& name, int id, const Vector3& centre, do
 }
 
 void Picture::addArrow(const std::string& name, int id, const Vector3& from, const Vector3& to, const Color& shade) {
+  if ((to - from).norm() < kSmallestDrawn) return;
   Marker& marker = add(name, id, Marker::ARROW, shade);
   marker.points = {toPoint(from), toPoint(to)};
   marker.scale.x = 0.0012;  // shaft
   marker.scale.y = 0.003;   // head
   marker.scale.z = 0.005;
-  if ((to - from).norm() < kSmallestDrawn) marker.action = Marker::DELETE;
 }
 
 void Picture::addLine(const std::string& name, int id, const Vector3& from, const Vector3& to, double width,
@@ -99,12 +99,8 @@ void Picture::addText(const std::string& name, int id, const Vector3& place, dou
                       const Color& shade) {
   Marker& marker = add(name, id, Marker::TEXT_VIEW_FACING, shade);
   marker.pose.position = toPoint(place);
-  marker.scale.z = height;
+  marker.scale.x = marker.scale.z = height;  // rviz reads z, viewers in web browsers x
   marker.text = text;
-}
-
-void Picture::removeAll() {
-  for (Marker& marker : markers_.markers) marker.action = Marker::DELETE;
 }
 
 }  // namespace live_stiffness

@@ -22,7 +22,7 @@ std_msgs::ColorRGBA color(double r, double g, double b, double a = 1.0);
 // Blue (0) over white to red (1); grey when stale.
 std_msgs::ColorRGBA blueToRed(double fraction, bool stale);
 
-// Markers of one picture, all in one frame and with one stamp.
+// Markers of one picture, all in one frame and with one stamp. MarkerPublisher deletes those of the picture before.
 class Picture {
  public:
   using Marker = visualization_msgs::Marker;
@@ -40,16 +40,13 @@ class Picture {
                     const Color& shade);
   // SPHERE of this diameter, m.
   void addBall(const std::string& name, int id, const Vector3& centre, double diameter, const Color& shade);
-  // ARROW from one point to another; removed if they are less than 0.1 mm apart.
+  // ARROW from one point to another; none if they are less than 0.1 mm apart.
   void addArrow(const std::string& name, int id, const Vector3& from, const Vector3& to, const Color& shade);
   // LINE_LIST of one line, width in m.
   void addLine(const std::string& name, int id, const Vector3& from, const Vector3& to, double width, const Color& shade);
   // TEXT_VIEW_FACING of this height, m.
   void addText(const std::string& name, int id, const Vector3& place, double height, const std::string& text,
                const Color& shade = color(1.0, 1.0, 1.0));
-  // Takes away what an earlier picture had there (action DELETE); the second: everything that this one has.
-  void remove(const std::string& name, int id) { add(name, id, Marker::SPHERE).action = Marker::DELETE; }
-  void removeAll();
 
   const visualization_msgs::MarkerArray& markers() const { return markers_; }
 

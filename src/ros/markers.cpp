@@ -40,13 +40,9 @@ void addTips(const Vector3& predicted, const std::optional<Pose>& measured, Pict
   constexpr double kDiameter = 0.004;  // m
   const std_msgs::ColorRGBA red = color(0.95, 0.1, 0.1);
   picture.addBall("tip", 0, predicted, kDiameter, color(0.1, 0.8, 0.2));
-  if (measured) {
-    picture.addBall("tip", 1, measured->p, kDiameter, red);
-    picture.addLine("tip", 2, predicted, measured->p, 0.001, red);
-  } else {
-    picture.remove("tip", 1);
-    picture.remove("tip", 2);
-  }
+  if (!measured) return;
+  picture.addBall("tip", 1, measured->p, kDiameter, red);
+  picture.addLine("tip", 2, predicted, measured->p, 0.001, red);
 }
 
 std::string eigenvalueText(const Estimate& estimate, bool stale) {
@@ -86,6 +82,7 @@ MarkerArray makeMarkers(const Estimate& estimate, const std::optional<Pose>& mea
 MarkerArray makeEigenscrewMarkers(const Estimate& estimate, bool stale, double length, const MarkerStyle& style,
                                   const ros::Time& stamp) {
   const EigenscrewDecomposition decomposition = eigenscrewsOfStiffness(estimate.stiffness);
+  if (stale || !decomposition.definite) return {};
   Picture picture(style.frame, stamp);
   for (int i = 0; i < 6; ++i) {
     const Eigenscrew& screw = decomposition.screws[i];
@@ -98,33 +95,26 @@ MarkerArray makeEigenscrewMarkers(const Estimate& estimate, bool stale, double l
     // Positive and negative screws often share a line, so their labels are at its two ends.
     picture.addText("eigenscrews", 6 + i, middle + (is_positive ? 1.05 : -1.05) * half, 0.003, text, shade);
   }
-  if (stale || !decomposition.definite) picture.removeAll();
   return picture.markers();
 }
 
-MarkerArray makeGhostMarkers(const Ghost* ghost, double force_n_per_m, const MarkerStyle& style,
-                             const ros::Time& stamp) {
+MarkerArray makeGhostMarkers(const Ghost& ghost, double force_n_per_m, const MarkerStyle& style, const ros::Time& stamp) {
   Picture picture(style.frame, stamp);
-  const bool has_shape = ghost != nullptr && !ghost->shape.empty();
+  const bool has_shape = !ghost.shape.empty();
   if (has_shape) {
     const std_msgs::ColorRGBA shade = color(0.85, 0.9, 1.0, 0.45);
-    const Vector3& tip = ghost->X_BT.p;
-    picture.addTube("ghost", 0, ghost->shape, style.tube_radius, {shade});
+    const Vector3& tip = ghost.X_BT.p;
+    picture.addTube("ghost", 0, ghost.shape, style.tube_radius, {shade});
     picture.addBall("ghost", 1, tip, 0.004, shade);
-    picture.addArrow("ghost_force", 0, tip, tip + arrowOf(ghost->force, force_n_per_m), color(1.0, 0.9, 0.2));
-  } else {
-    for (int id : {0, 1}) picture.remove("ghost", id);
-    picture.remove("ghost_force", 0);
+    picture.addArrow("ghost_force", 0, tip, tip + arrowOf(ghost.force, force_n_per_m), color(1.0, 0.9, 0.2));
   }
-  if (ghost == nullptr) picture.remove("ghost_text", 0);
-  else
-    picture.addText("ghost_text", 0, ghost->text_place, 0.0035, ghost->text,
-                    has_shape ? color(1.0, 1.0, 1.0) : color(1.0, 0.5, 0.3));
+  picture.addText("ghost_text", 0, ghost.text_place, 0.0035, ghost.text,
+                  has_shape ? color(1.0, 1.0, 1.0) : color(1.0, 0.5, 0.3));
   return picture.markers();
 }
 
-MarkerArray makeContactMarkers(const Vector3& tip, const Vector3& force, double deviation, bool in_contact,
-                               double force_n_per_m, const MarkerStyle& style, const ros::Time& stamp) {
+MarkerArray makeContactMarkers(const Vector3& tip, const Vector3& force, double deviation, double force_n_per_m,
+                               const MarkerStyle& style, const ros::Time& stamp) {
   Picture picture(style.frame, stamp);
   const Vector3 tail = tip - arrowOf(force, force_n_per_m);
   const std_msgs::ColorRGBA shade = color(1.0, 0.3, 0.85);
@@ -132,7 +122,6 @@ MarkerArray makeContactMarkers(const Vector3& tip, const Vector3& force, double 
   char text[64];
   std::snprintf(text, sizeof text, "%.2f +- %.2f N", force.norm(), deviation);
   picture.addText("contact", 1, tail + Vector3(0.0, 0.0, 0.005), 0.005, text, shade);
-  if (!in_contact) picture.removeAll();
   return picture.markers();
 }
 

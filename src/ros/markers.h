@@ -1,6 +1,5 @@
 #pragma once
-// Pictures of an estimate for rviz. Every call of one function returns the same namespaces and ids, so that each
-// replaces its predecessor.
+// Pictures of an estimate for rviz. What is not to be seen is left out.
 
 #include <optional>
 #include <string>
@@ -19,15 +18,14 @@ visualization_msgs::MarkerArray makeMarkers(const Estimate& estimate, const std:
 
 // Namespace `eigenscrews`: the axes of the six eigenscrews (21) of the stiffness as lines in space, `length` (m) long,
 // about the point of each that is nearest to T; red: positive, blue: negative; each with its eigenstiffness and pitch.
-// Removed when stale, or when the stiffness has no eigenscrews.
+// None when stale, or when the stiffness has no eigenscrews.
 visualization_msgs::MarkerArray makeEigenscrewMarkers(const Estimate& estimate, bool stale, double length,
                                                       const MarkerStyle& style, const ros::Time& stamp);
 
 // Namespace `contact`: an arrow that pushes the tip (base frame, m) with the force estimated there (base axes, N),
-// force_n_per_m newton a metre of length, and its size with the standard deviation (N) of it. Removed unless in contact.
+// force_n_per_m newton a metre of length, and its size with the standard deviation (N) of it.
 visualization_msgs::MarkerArray makeContactMarkers(const Vector3& tip, const Vector3& force, double deviation,
-                                                   bool in_contact, double force_n_per_m, const MarkerStyle& style,
-                                                   const ros::Time& stamp);
+                                                   double force_n_per_m, const MarkerStyle& style, const ros::Time& stamp);
 
 // The shape of the robot under an additional wrench.
 struct Ghost {
@@ -38,8 +36,8 @@ struct Ghost {
   std::string text;
 };
 // Namespaces `ghost` (tube and tip), `ghost_force` (arrow from the tip, force_n_per_m newton a metre of length) and
-// `ghost_text`. nullptr: all removed.
-visualization_msgs::MarkerArray makeGhostMarkers(const Ghost* ghost, double force_n_per_m, const MarkerStyle& style,
+// `ghost_text`.
+visualization_msgs::MarkerArray makeGhostMarkers(const Ghost& ghost, double force_n_per_m, const MarkerStyle& style,
                                                  const ros::Time& stamp);
 
 }  // namespace live_stiffness

@@ -20,6 +20,8 @@ void StiffnessNode::setParameters(const NodeParameters& parameters, bool keeps_i
   const auto estimator = std::make_shared<StiffnessEstimator>(parameters.scene, parameters.model, parameters.estimator);
   auto contact = std::make_unique<TipWrenchEstimator>(parameters.scene, parameters.model, parameters.contact);
   const std::scoped_lock lock(tracking_mutex_, estimation_mutex_);
+  registration_.restart({estimator, &estimator->model()});
+  // From here nothing throws.
   parameters_ = parameters;
   updater_.replaceEstimator(estimator, keeps_inputs);
   comparison_.replaceFilter(std::move(contact));
@@ -27,7 +29,6 @@ void StiffnessNode::setParameters(const NodeParameters& parameters, bool keeps_i
 
 bool StiffnessNode::reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   setParameters(parameters_, false);
-  registration_.restart(snapshot().model);
   response.success = true;
   response.message = "estimate, tip wrench, contact and the past for ~register are forgotten";
   ROS_INFO_STREAM("reset: " << response.message);
@@ -52,9 +53,11 @@ bool StiffnessNode::reload(std_srvs::Trigger::Request&, std_srvs::Trigger::Respo
     parameters.model = read.model;
     parameters.estimator = read.estimator;
     parameters.contact = read.contact;
+    StiffnessConfig config = config_;
+    config.__fromServer__(private_node_);
+    parameters = reconfigured(parameters, config);
     setParameters(parameters, true);
-    registration_.restart(snapshot().model);
-    config_.__fromServer__(private_node_);
+    config_ = config;
     config_server_.updateConfig(config_);
     response.success = true;
     response.message = "loaded: " + std::to_string(parameters.scene.segmentCount()) + " segment(s), " +
@@ -70,10 +73,12 @@ bool StiffnessNode::reload(std_srvs::Trigger::Request&, std_srvs::Trigger::Respo
 void StiffnessNode::reconfigure(StiffnessConfig& wanted, uint32_t level) {
   if (level == ~0u) return;  // the first call: what was loaded at start
   NodeParameters parameters;
+  std::unique_ptr<TipWrenchEstimator> contact;  // another one, if it alone changes
   try {
     parameters = reconfigured(parameters_, wanted);
-    if (level & (Live::kContact | Live::kRobot)) setParameters(parameters, true);
-    if (level & Live::kRobot) registration_.restart(snapshot().model);
+    if (level & Live::kRobot) setParameters(parameters, true);
+    else if (level & Live::kContact)
+      contact = std::make_unique<TipWrenchEstimator>(parameters.scene, parameters.model, parameters.contact);
   } catch (const ConfigurationError& error) {
     ROS_ERROR_STREAM("reconfigure: kept what was set before: " << oneLine(error.faults()));
     wanted = config_;
@@ -81,6 +86,7 @@ void StiffnessNode::reconfigure(StiffnessConfig& wanted, uint32_t level) {
   }
   const std::scoped_lock lock(tracking_mutex_, estimation_mutex_);
   parameters_ = parameters;
+  if (contact) contact_.setEstimator(std::move(contact));
   config_ = wanted;
 }
 

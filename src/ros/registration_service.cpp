@@ -10,13 +10,14 @@ RegistrationService::RegistrationService(ros::NodeHandle private_node, std::shar
       on_apply_(std::move(on_apply)),
       server_(private_node.advertiseService("register", &RegistrationService::answer, this)) {
   restart(std::move(model));
-  sendTransform(parameters_.registration);
+  if (parameters_.is_registered) sendTransform(parameters_.registration);
 }
 
 void RegistrationService::restart(std::shared_ptr<const StiffnessModel> model) {
   auto buffer =
       std::make_unique<RegistrationBuffer>(*model, parameters_.registration_buffer, parameters_.pressure_timeout);
   const std::lock_guard<std::mutex> lock(mutex_);
+  waiting_.clear();
   buffer_ = std::move(buffer);
   model_ = std::move(model);
 }

@@ -21,8 +21,8 @@ class RegistrationService {
  public:
   using OnApply = std::function<void(const Registration& registration)>;
 
-  // Advertises ~register and publishes the transform of the parameters' registration. Calls on_apply with a new
-  // registration to use. parameters must outlive this. Requests may come in another thread than pressures and poses.
+  // Advertises ~register and publishes the transform of the parameters' registration, if there is one. Calls on_apply with a
+  // new registration to use. parameters must outlive this. Requests may come in another thread than pressures and poses.
   RegistrationService(ros::NodeHandle private_node, std::shared_ptr<const StiffnessModel> model,
                       const NodeParameters& parameters, OnApply on_apply);
 
@@ -33,7 +33,7 @@ class RegistrationService {
     buffer_->addPose(X_AS, tip_wrench, in_contact, time);
   }
 
-  // Forgets the past; call it with a new model, too.
+  // Forgets the past; call it with a new model, too, and while no pressures come.
   void restart(std::shared_ptr<const StiffnessModel> model);
 
   // Always returns true; a request that cannot be fulfilled gets success = false.

@@ -25,10 +25,10 @@ StiffnessNode::StiffnessNode(const ros::NodeHandle& node, const ros::NodeHandle&
       private_node_(onQueue(private_node, nullptr)),
       estimate_publisher_(private_node_.advertise<StiffnessEstimate>("estimate", 100)),
       backbone_publisher_(private_node_.advertise<nav_msgs::Path>("backbone", 1)),
-      marker_publisher_(private_node_.advertise<visualization_msgs::MarkerArray>("markers", 1)),
       error_publisher_(private_node_.advertise<TrackingError>("tracking_error", 10)),
       contact_publisher_(private_node_.advertise<TipContact>("tip_contact", 10)),
       wrench_publisher_(private_node_.advertise<geometry_msgs::WrenchStamped>("tip_wrench_estimate", 10)),
+      marker_publisher_(private_node_, parameters_.frames.base),
       updater_(parameters_, *this),
       pose_output_(private_node_, "tip_pose", parameters_.frames),
       comparison_(parameters_, *this),
@@ -41,7 +41,7 @@ StiffnessNode::StiffnessNode(const ros::NodeHandle& node, const ros::NodeHandle&
       diagnostics_(node_, private_node_) {
   if (parameters_.tip_handle.enabled)
     tip_handle_ = std::make_unique<TipHandle>(private_node_, parameters_.style, parameters_.tip_handle,
-                                              marker_publisher_, [this] { return snapshot(); });
+                                              [this] { return snapshot(); });
   addDiagnostics();
   addServices();
   subscribe(node);
@@ -150,7 +150,7 @@ void StiffnessNode::onContact(const TipContact& contact, const geometry_msgs::Wr
 
 void StiffnessNode::onMarkers(const ros::WallTimerEvent&) {
   const EstimateSnapshot newest = snapshot();
-  if (newest.estimate == nullptr) return;
+  if (newest.estimate == nullptr) return marker_publisher_.publish({});
   const Estimate& estimate = *newest.estimate;
   const MarkerStyle& style = parameters_.style;
   std::optional<Pose> measured_tip;
@@ -158,19 +158,17 @@ void StiffnessNode::onMarkers(const ros::WallTimerEvent&) {
   {
     const Lock lock(tracking_mutex_);
     measured_tip = comparison_.freshTip();
-    const TipWrenchEstimate* touched = comparison_.contact();
-    contact = touched == nullptr
-                  ? makeContactMarkers(Vector3::Zero(), Vector3::Zero(), 0.0, false, 1.0, style, newest.stamp)
-                  : makeContactMarkers(touched->X_BT.p, linear(touched->wrench), forceDeviation(*touched), true,
-                                       parameters_.contact_arrow_scale, style, newest.stamp);
+    if (const TipWrenchEstimate* touched = comparison_.contact())
+      contact = makeContactMarkers(touched->X_BT.p, linear(touched->wrench), forceDeviation(*touched),
+                                   parameters_.contact_arrow_scale, style, newest.stamp);
   }
   visualization_msgs::MarkerArray markers = makeMarkers(estimate, measured_tip, newest.stale, style, newest.stamp);
   append(markers, contact);
   if (parameters_.show_eigenscrews)
     append(markers,
            makeEigenscrewMarkers(estimate, newest.stale, parameters_.eigenscrew_length, style, newest.stamp));
-  marker_publisher_.publish(markers);
-  if (tip_handle_) tip_handle_->update();
+  if (tip_handle_) append(markers, tip_handle_->update());
+  marker_publisher_.publish(std::move(markers));
   backbone_publisher_.publish(toPath(estimate.shape, estimate.solution.X_BT, newest.stamp, style.frame));
 }
 

@@ -25,6 +25,7 @@
 #include "ros/any_type_subscriber.h"
 #include "ros/estimate_snapshot.h"
 #include "ros/estimate_updater.h"
+#include "ros/marker_publisher.h"
 #include "ros/pose_output.h"
 #include "ros/registration_service.h"
 #include "ros/shared_diagnostics.h"
@@ -88,8 +89,8 @@ class StiffnessNode : private EstimateOutput {
   ros::CallbackQueue estimation_queue_, tracking_queue_;
   std::mutex estimation_mutex_, tracking_mutex_;
   ros::NodeHandle node_, private_node_;
-  ros::Publisher estimate_publisher_, backbone_publisher_, marker_publisher_, error_publisher_, contact_publisher_,
-      wrench_publisher_;
+  ros::Publisher estimate_publisher_, backbone_publisher_, error_publisher_, contact_publisher_, wrench_publisher_;
+  MarkerPublisher marker_publisher_;
 
   EstimateUpdater updater_;   // of the estimation thread
   PoseOutput pose_output_;    // the same

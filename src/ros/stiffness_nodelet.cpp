@@ -13,10 +13,13 @@ namespace live_stiffness {
 
 class StiffnessNodelet : public nodelet::Nodelet {
  private:
-  // The manager logs an exception from here, and does not load the nodelet.
-  void onInit() override {
+  // The manager does not load a nodelet that throws here, but does not say why.
+  void onInit() override try {
     node_ = std::make_unique<StiffnessNode>(getNodeHandle(), getPrivateNodeHandle());
     master_ = std::make_unique<MasterCheck>(false);
+  } catch (const std::exception& error) {
+    NODELET_FATAL("%s", error.what());
+    throw;
   }
 
   std::unique_ptr<StiffnessNode> node_;

@@ -53,10 +53,9 @@ InteractiveMarkerControl axisControl(const Vector3& axis, uint8_t mode, const st
 }  // namespace
 
 TipHandle::TipHandle(const ros::NodeHandle& private_node, const MarkerStyle& style,
-                     const TipHandleOptions& options, const ros::Publisher& markers, GetSnapshot get_snapshot)
+                     const TipHandleOptions& options, GetSnapshot get_snapshot)
     : style_(style),
       options_(options),
-      markers_(markers),
       get_snapshot_(std::move(get_snapshot)),
       server_(private_node.resolveName("tip_marker")) {
   fillMenu();
@@ -85,7 +84,6 @@ void TipHandle::letGo() {
   asked_.reset();
   wrench_.setZero();
   next_answer_ = ros::WallTime();
-  markers_.publish(makeGhostMarkers(nullptr, options_.force_per_m, style_, ros::Time()));
 }
 
 void TipHandle::insertMarker(const Pose& X_BT) {
@@ -137,9 +135,9 @@ bool TipHandle::isAnswered(const Estimate& estimate) const {
          asked_->X_BH.p == dragged_->p && asked_->X_BH.R == dragged_->R;
 }
 
-void TipHandle::update() {
+visualization_msgs::MarkerArray TipHandle::update() {
   const EstimateSnapshot newest = get_snapshot_();
-  if (newest.estimate == nullptr) return;
+  if (newest.estimate == nullptr) return {};
   const Estimate& estimate = *newest.estimate;
   if (solver_.setModel(newest.model)) {
     letGo();
@@ -148,7 +146,7 @@ void TipHandle::update() {
   if (!is_inserted_) insertMarker(estimate.solution.X_BT);
   if (!dragged_) server_.setPose(kName, toPose(estimate.solution.X_BT));
   server_.applyChanges();
-  if (!dragged_) return;
+  if (!dragged_) return {};
   const ros::WallTime start = ros::WallTime::now();
   if (!isAnswered(estimate) && start >= next_answer_) {
     answer(estimate);
@@ -156,7 +154,7 @@ void TipHandle::update() {
     const ros::WallTime end = ros::WallTime::now();
     next_answer_ = end + (end - start) * 4.0;
   }
-  markers_.publish(makeGhostMarkers(&ghost_, options_.force_per_m, style_, newest.stamp));
+  return makeGhostMarkers(ghost_, options_.force_per_m, style_, newest.stamp);
 }
 
 void TipHandle::answer(const Estimate& estimate) {

@@ -24,13 +24,14 @@ namespace live_stiffness {
 class TipHandle {
  public:
 
-  // Serves the interactive marker on ~tip_marker, and publishes the ghost on `markers`.
+  // Serves the interactive marker on ~tip_marker.
   TipHandle(const ros::NodeHandle& private_node, const MarkerStyle& style,
-            const TipHandleOptions& options, const ros::Publisher& markers, GetSnapshot get_snapshot);
+            const TipHandleOptions& options, GetSnapshot get_snapshot);
 
-  // Moves the handle with the tip, or answers for the newest estimate. Call it at the rate of the markers. Dragging only
-  // moves the handle, so that no queue of requests builds up. Answers take at most a fifth of the time.
-  void update();
+  // Moves the handle with the tip, or answers for the newest estimate; returns the ghost, if there is one. Call it at the
+  // rate of the markers. Dragging only moves the handle, so that no queue of requests builds up. Answers take at most a
+  // fifth of the time.
+  visualization_msgs::MarkerArray update();
 
  private:
   enum class Question { kForceAtPosition, kWrenchAtPose, kDeflectionUnderWrench };
@@ -50,7 +51,6 @@ class TipHandle {
 
   MarkerStyle style_;
   TipHandleOptions options_;
-  ros::Publisher markers_;
   GetSnapshot get_snapshot_;
   ModelWorkspace solver_;
   Question question_ = Question::kForceAtPosition;

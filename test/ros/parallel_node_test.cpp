@@ -169,7 +169,7 @@ TEST_F(ParallelNodeTest, TransformAndMarkersShowTheEstimate) {
   tf2_ros::TransformListener listener(buffer);
   const Pose X_BP = expected(leaning_).X_BP;
   ASSERT_TRUE(driveUntil(leaning_, [&] {
-    if (!solvedFor(leaning_) || !newest_markers_) return false;
+    if (!solvedFor(leaning_) || !newest_markers_ || newest_markers_->markers.size() < 2) return false;
     if (!buffer.canTransform("base", "platform", ros::Time(0))) return false;
     const auto& p = buffer.lookupTransform("base", "platform", ros::Time(0)).transform.translation;
     return (Vector3(p.x, p.y, p.z) - X_BP.p).norm() < 1e-7;

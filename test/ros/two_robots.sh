@@ -68,6 +68,30 @@ rosparam dump "$work/third.yaml" /third/stiffness_node
 diff "$work/left.yaml" "$work/third.yaml" || fail "third is not configured as left is"
 kill -INT $third; wait $third || fail "third: exit status $?"
 
+if command -v rviz >/dev/null && command -v Xvfb >/dev/null; then
+  echo "- rviz of each, as the launch file starts it: its topics, its base"
+  exec {display}< <(exec Xvfb -displayfd 1 -screen 0 800x600x24 2>"$work/Xvfb.log")
+  pids+=($!)
+  read -r -t 20 number <&$display || fail "no display"
+  export DISPLAY=:$number LIBGL_ALWAYS_SOFTWARE=1
+  shows() {  # ROBOT
+    local info topic
+    info=$(rosnode info "/$1/rviz")
+    for topic in markers tip_marker/update; do
+      grep -A3 "topic: /$1/stiffness_node/$topic$" <<<"$info" | grep -q "to: /$1/stiffness_node" || return 1
+    done
+  }
+  for robot in left right; do
+    command=$(roslaunch --args /$robot/rviz "$source/launch/two_robots.launch" rviz:=true)
+    [[ $command == *" -f $robot/base "* ]] || fail "fixed frame of $robot: $command"
+    (eval "exec env $command") >"$work/rviz.log" 2>&1 &
+    rviz=$!
+    pids+=("$rviz")
+    within 60 "rviz of $robot does not show it" shows $robot
+    kill $rviz; wait $rviz || true
+  done
+fi
+
 echo "- what happens to one leaves the other alone"
 pid=$(rosnode info /left/rig_simulator | sed -n 's/^Pid: //p')
 kill -9 "$pid"
