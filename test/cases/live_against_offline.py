@@ -7,7 +7,6 @@ that the order between topics is certain. Compared with `replay`: the sequence o
 repeats), tracking errors, contact, and the counts of messages. Times of arrival and of solving are not compared."""
 import collections
 import pathlib
-import re
 import signal
 import subprocess
 import sys
@@ -23,6 +22,7 @@ from live_stiffness.msg import StiffnessEstimate, TipContact, TrackingError
 from rosgraph_msgs.msg import Clock
 
 import make_cases
+from offline_cases import counts_of
 
 PATIENCE = 20.0  # s, for what must happen
 REPORTS = 25     # diagnostics after which a message has had no effect
@@ -233,14 +233,6 @@ def sequence_differences(name, live, offline, difference):
         return []
     text = "%s: %d offline, %d live, %d of them differ" % (name, len(offline), len(live), len(different))
     return [text + ("; number %d: %s" % different[0] if different else "")]
-
-
-def counts_of(report):
-    """{column: number} for each row of the table of topics in replay's report."""
-    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in report.splitlines() if line.startswith("|")]
-    header = next((row for row in rows if row[0] == "topic"), [])
-    return [{name: int(cell) for name, cell in zip(header, row) if re.fullmatch(r"\d+", cell)}
-            for row in rows if len(row) == len(header) and row != header and not row[0].startswith("--")]
 
 
 def replay(programs, bags, parameters, out):

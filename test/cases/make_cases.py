@@ -25,12 +25,13 @@ PRESSURES, POSE, WRENCH = "/chamber_pressures", "/aurora_pose", "/tip_wrench"
 RECORDED = 1.7e9  # s, when the recording began
 POSE_LATENCY = 0.005  # s, from the stamp of a pose to its arrival; bags do not keep the order of messages that came at one time
 ATMOSPHERE = 101325.0  # Pa
+LOST = (8.0, 13.0)  # s, when something is silent or not seen
 NDI_BAD_FLOAT = -3.697314e28  # what NDI's interface gives for a number that it does not have
 
 # Parameters of the node in all cases. Every change of pressure is solved, so that the sequence of estimates does not depend on
 # when a heartbeat comes; heartbeat and diagnostics are quick, since the player waits for what they say.
 COMMON = {"scene_file": str(CASES / "arm.yaml"), "registration_file": str(REGISTRATION), "update_threshold_pa": 0.0,
-          "heartbeat_hz": 100.0, "diagnostic_period": 0.004, "marker_rate_hz": 0.1, "tip_handle": False}
+          "heartbeat_hz": 100.0, "diagnostic_period": 0.002, "marker_rate_hz": 0.1, "tip_handle": False}
 
 
 class Event:
@@ -265,15 +266,15 @@ BAGS = {
     "poses_1_s_ahead": Case(stamped(POSE, lambda seconds: RECORDED + 1.0 + seconds)),
     "pressures_frozen": Case(stamped(PRESSURES, lambda seconds: RECORDED), changes=(0.5,)),
     # Silence, loss and disorder.
-    "silent_pressures": Case(within(8.0, 13.0, PRESSURES, drop), changes=(8.455,)),
-    "silent_tracker": Case(within(8.0, 13.0, POSE, drop)),
+    "silent_pressures": Case(within(*LOST, PRESSURES, drop), changes=(8.455,)),
+    "silent_tracker": Case(within(*LOST, POSE, drop)),
     "wrench_ends": Case(with_wrench("base", 4.0, 30), changes=(7.925,)),
     "wrench_of_unknown_frame": Case(with_wrench("ft_link", 4.0, 8)),
     "overtaken": Case(overtaken),
-    "held_pose": Case(held(8.0, 13.0)),
-    "zero_pose": Case(within(8.0, 13.0, POSE, zero_pose)),
-    "ndi_bad_float": Case(within(8.0, 13.0, POSE, ndi_bad_float)),
-    "far_away": Case(within(8.0, 13.0, POSE, far_away)),
+    "held_pose": Case(held(*LOST)),
+    "zero_pose": Case(within(*LOST, POSE, zero_pose)),
+    "ndi_bad_float": Case(within(*LOST, POSE, ndi_bad_float)),
+    "far_away": Case(within(*LOST, POSE, far_away)),
     "not_a_number": Case(within(8.0, 9.0, PRESSURES, not_a_number)),
     # Units, channels and messages of other kinds.
     "millimetres": Case(each(POSE, in_millimetres), {"aurora_position_unit": "mm"}),
@@ -316,7 +317,6 @@ def paths_of(folder, name):
 
 HEADER = ["time_s", "pressure_1_pa", "pressure_2_pa", "pressure_3_pa", "tip_x_m", "tip_y_m", "tip_z_m",
           "tip_qw", "tip_qx", "tip_qy", "tip_qz"]
-LOST = slice(160, 280)  # rows in which the tool is not seen
 
 
 def rows_of(events):
@@ -338,8 +338,8 @@ def changed(change):
 def lost(cells):
     """The table in which the tool is lost for a while, and cells(the last row before) stand for its pose."""
     def make(rows):
-        instead = cells(rows[LOST.start - 1])
-        return [HEADER] + rows[:LOST.start] + [row[:4] + instead for row in rows[LOST]] + rows[LOST.stop:]
+        instead = cells(max(row for row in rows if row[0] < LOST[0]))
+        return [HEADER] + [row[:4] + instead if LOST[0] <= row[0] < LOST[1] else row for row in rows]
     return make
 
 
@@ -358,6 +358,11 @@ def written(encoding="utf-8", before="", **form):
 
 def units_below(rows):
     return [HEADER, ["s"] + ["Pa"] * 3 + ["m"] * 3 + [""] * 4] + rows
+
+
+def at_rest_before(rows):
+    """The same after a second at rest."""
+    return [[0.05 * k] + rows[0][1:] for k in range(20)] + [[1.0 + row[0]] + row[1:] for row in rows]
 
 
 def row_with(row, first, values):
@@ -392,7 +397,7 @@ TABLES = {
     "millimetres": changed(lambda row: row_with(row, 4, [1e3 * x for x in row[4:7]])),
     "absolute_named_gauge": changed(lambda row: row_with(row, 1, [p + ATMOSPHERE for p in row[1:4]])),
     "absolute": lambda rows: [[name + "_abs" if "_pa" in name else name for name in HEADER]] + [
-        row_with(row, 1, [p + ATMOSPHERE for p in row[1:4]]) for row in rows],
+        row_with(row, 1, [p + ATMOSPHERE for p in row[1:4]]) for row in at_rest_before(rows)],
     "xyzw": changed(lambda row: row[:7] + row[8:] + [row[7]]),
     "conjugated": changed(lambda row: row[:8] + [-q for q in row[8:]]),
     "mirrored": changed(lambda row: row_with(row, 5, [-row[5]])),
