@@ -66,27 +66,31 @@ class Node:
                     self.counts.update({(entry, pair.key): pair.value for pair in status.values if "rate" not in pair.key})
             self.changed.notify_all()
 
-    def wait(self, condition, what=None):
-        """Until the condition holds; False, or an error that says what did not come, if it never does."""
+    def wait(self, condition, what):
+        """Until the condition holds; RuntimeError that says what did not come if it never does."""
         end = time.time() + PATIENCE
         with self.changed:
             while not condition():
                 if self.process.poll() is not None:
                     raise RuntimeError("the node has ended with status %d" % self.process.returncode)
-                if not self.changed.wait(end - time.time()) and time.time() > end:
-                    if what is None:
-                        return False
+                if time.time() > end:
                     raise RuntimeError("in vain for %s" % what)
-        return True
+                self.changed.wait(1.0)
+
+    def wait_for_reports(self, count):
+        with self.changed:
+            reports = self.reports
+        self.wait(lambda: self.reports >= reports + count, "reports")
 
     def number(self, entry, *keys):
         """The sum of counts."""
         return sum(int(self.counts.get((entry, key), 0)) for key in keys)
 
-    def taken(self):
-        """What changes when a message has been taken, whatever became of it."""
-        return (self.said, len(self.heard["tracking_error"]), len(self.heard["tip_contact"]),
-                tuple(self.counts.get((entry, key)) for entry in COUNTED for key in ("accepted", "rejected", "out of order")))
+    def taken(self, topic):
+        """What changes when a message of the topic has been taken, whatever became of it."""
+        entry = "Tracker" if topic in (make_cases.POSE, "/tf") else "Pressures"
+        return (len(self.heard["tracking_error"]) if entry == "Tracker" else self.said,
+                tuple(self.counts.get((entry, key)) for key in ("accepted", "rejected", "out of order")))
 
     def end(self):
         for subscriber in self.subscribers:
@@ -148,7 +152,7 @@ def play(node, case, bags):
     for topic, publisher in publishers.items():
         end = time.time() + PATIENCE
         while publisher.get_num_connections() < 1:
-            node.wait(lambda before=node.reports: node.reports > before, "reports")
+            node.wait_for_reports(1)
             if time.time() > end:
                 raise RuntimeError("the node does not subscribe to " + topic)
     changes, without_effect = list(case.changes), 0
@@ -158,15 +162,15 @@ def play(node, case, bags):
             set_clock(moment)
             if changes and (moment - begin).to_sec() > changes[0]:
                 node.wait(lambda: node.said != before, "a change %g s after the begin" % changes.pop(0))
+        else:  # the newest report may be of before the last message
+            node.wait_for_reports(2)
         with node.changed:
-            before, reports = node.taken(), node.reports
+            before, reports = node.taken(topic), node.reports
         publishers[topic].publish(kinds[topic](data))
         if not case.unseen(make_cases.Event(0.0, topic, message)):
-            node.wait(lambda: node.taken() != before or node.reports > reports + REPORTS, "reports")
-            without_effect += node.taken() == before
-    with node.changed:
-        reports = node.reports
-    node.wait(lambda: node.reports > reports + 3, "the last report")
+            node.wait(lambda: node.taken(topic) != before or node.reports > reports + REPORTS, "reports")
+            without_effect += node.taken(topic) == before
+    node.wait_for_reports(2)
     for publisher in list(publishers.values()) + [clock]:
         publisher.unregister()
     return len(messages), without_effect
@@ -265,7 +269,7 @@ def count_differences(node, counts):
 def compare(programs, folder, name, case):
     """Plays a case: cells of its row, and lines of what differs."""
     bags, parameters = make_cases.paths_of(folder, name), str(folder / (name + ".yaml"))
-    if case.seconds < 1e6:
+    if case.seconds < make_cases.WHOLE:
         bags = [shortened(bags[0], case.seconds, folder / ("short_%s.bag" % name))]
     node = Node(programs, yaml.safe_load(open(parameters)))
     try:
@@ -285,7 +289,8 @@ def compare(programs, folder, name, case):
     different += sequence_differences("contact", node.heard["tip_contact"], heard["tip_contact"], contact_difference)
     if not failure:
         different += count_differences(node, counts)
-    return [played, len(live), len(node.heard["tracking_error"]), len(node.heard["tip_contact"]), without_effect, seconds], different
+    cells = [played, len(live), len(node.heard["tracking_error"]), len(node.heard["tip_contact"]), without_effect, seconds]
+    return cells, different
 
 
 def shortened(path, seconds, out):
@@ -302,7 +307,7 @@ def main(programs, folder, *names):
     folder = pathlib.Path(folder).resolve()
     cases = dict(make_cases.BAGS)
     if (folder / "recorded.bag").exists():
-        cases["recorded"] = make_cases.Case(None)
+        cases["recorded"] = make_cases.Case(None, seconds=make_cases.WHOLE)
     unknown = set(names) - set(cases)
     if unknown:
         sys.exit("no such cases: %s" % ", ".join(sorted(unknown)))
@@ -310,13 +315,14 @@ def main(programs, folder, *names):
     rospy.set_param("/use_sim_time", True)
     rospy.init_node("player", disable_rostime=True, disable_signals=True)
     failed = collections.OrderedDict()
-    print("%-32s %8s %9s %8s %8s %9s %5s  %s" % ("case", "messages", "estimates", "errors", "contact", "no effect", "s", "differences"))
+    print("case                             messages estimates   errors  contact no effect     s  differences")
     for name in names or cases:
         try:
             cells, different = compare(programs, folder, name, cases[name])
         except (RuntimeError, subprocess.TimeoutExpired) as error:
             cells, different = [0, 0, 0, 0, 0, 0.0], [str(error)]
-        print(("%-32s %8d %9d %8d %8d %9d %5.1f  %s" % (name, *cells, "; ".join(different) or "none"))[:400], flush=True)
+        line = "%-32s %8d %9d %8d %8d %9d %5.1f  %s" % (name, *cells, "; ".join(different) or "none")
+        print(" ".join(line.split("\n"))[:400], flush=True)
         if different:
             failed[name] = different
     print("%d cases, %d differ%s" % (len(names or cases), len(failed), ": " + ", ".join(failed) if failed else ""))
