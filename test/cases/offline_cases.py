@@ -315,7 +315,7 @@ def cases(pressures, poses, late):
         pressures_accepted=pressures - 20, pressures_rejected=20, tracker_accepted=poses)]
     yield from same("overtaken")
     yield replay, "overtaken", [PASSED, never_back, no_contact, counts(pressures_accepted=pressures, pressures_out_of_order=late)]
-    yield replay, "wrench_ends", [PASSED, wrench_between(4.025, 7.925), never_stale]
+    yield replay, "wrench_ends", [PASSED, wrench_between(3.925, 7.925), never_stale]
     yield replay, "wrench_of_unknown_frame", [PASSED, says("unknown frame ft_link"), wrench_between(0.0, 0.0)]
 
     for name in ("millimetres", "kilopascals", "valves", "outlets", "tf", "parts"):
