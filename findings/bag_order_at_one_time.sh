@@ -38,7 +38,8 @@ int main(int, char** argv) {
 }
 END
 g++ -I/usr/include/pluginlib -I/usr/include/class_loader -I/usr/include/ament_index_cpp -I/usr/include/rcpputils \
-  -I/usr/include/rcutils "$work/read.cpp" -o "$work/read" -lrosbag_storage -lroscpp_serialization -lrostime -lcpp_common -lclass_loader
+  -I/usr/include/rcutils "$work/read.cpp" -o "$work/read" \
+  -lrosbag_storage -lroscpp_serialization -lrostime -lcpp_common -lclass_loader
 "$work/read" "$work/one_time.bag" >"$work/cpp"
 cat "$work/cpp" "$work/python"
 [ "$(cat "$work/cpp")" = "/b /a /a /b /b /a /a /b" ] && [ "$(cat "$work/python")" = "/a /b /a /b /a /b /a /b" ]
