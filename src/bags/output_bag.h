@@ -46,4 +46,7 @@ class OutputBag {
 // Stamp of a time since the begin of a recording, s; ROS time must not be zero.
 inline ros::Time bagTime(double seconds) { return ros::Time(1000.0 + seconds); }
 
+// Between messages of one sample: rosbag gives those of one time in no certain order (findings/bag_order_at_one_time.sh).
+inline const ros::Duration kNextMessage(1e-4);
+
 }  // namespace live_stiffness

@@ -27,8 +27,8 @@ void writeBag(const Recording& recording, const std::vector<Pressures>& channels
     const RecordedSample& sample = recording.samples[i];
     const ros::Time stamp = bagTime(sample.time - start);
     bag.write(topics.pressures, stamp, toPressures(channels[i], stamp));
-    bag.write(topics.pose, stamp, toPoseStamped(sample.tipPose(), stamp, kTrackerFrame.standard));
-    if (sample.tip_wrench) bag.write(topics.wrench, stamp, toWrenchStamped(*sample.tip_wrench, stamp, kForceSensorFrame));
+    bag.write(topics.pose, stamp + kNextMessage, toPoseStamped(sample.tipPose(), stamp, kTrackerFrame.standard));
+    if (sample.tip_wrench) bag.write(topics.wrench, stamp + kNextMessage, toWrenchStamped(*sample.tip_wrench, stamp, kForceSensorFrame));
     progress.update(static_cast<long>(i) + 1);
   }
   bag.finish();

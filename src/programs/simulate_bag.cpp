@@ -64,9 +64,9 @@ int main(int argc, char** argv) {
       const RigSample sample = rig.step(i / rate);
       const ros::Time stamp = bagTime(sample.time);
       bag.write(topics.pressures, stamp, toPressures(sample.measured_channels, stamp));
-      if (sample.X_AS) bag.write(topics.pose, stamp, toPoseStamped(*sample.X_AS, stamp, kTrackerFrame.standard));
+      if (sample.X_AS) bag.write(topics.pose, stamp + kNextMessage, toPoseStamped(*sample.X_AS, stamp, kTrackerFrame.standard));
       if (!push_n.empty())
-        bag.write(topics.wrench, stamp, toWrenchStamped(sample.sensedContact(), stamp, kForceSensorFrame));
+        bag.write(topics.wrench, stamp + kNextMessage, toWrenchStamped(sample.sensedContact(), stamp, kForceSensorFrame));
       progress.update(i + 1);
     }
     bag.finish();

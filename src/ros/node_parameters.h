@@ -33,7 +33,6 @@ struct NodeParameters : InputParameters {
   Registration registration;      // in use: loaded, until ~register applies another one
   bool is_registered = false;     // one was loaded, or applied by ~register
   std::string registration_file;  // that it was loaded from; empty: none
-  bool is_registered = false;     // a registration was given, or applied by ~register
   double registration_buffer = kRegistrationBuffer.standard;  // s of the past that ~register can use
 
   TipWrenchOptions contact;

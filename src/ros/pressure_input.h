@@ -14,9 +14,6 @@
 
 namespace live_stiffness {
 
-// Of channel_of_chamber; without it one channel per chamber of the scene. Throws ConfigurationError.
-ChannelMap makeChannelMap(const NodeParameters& parameters);
-
 class PressureInput {
  public:
   // parameters must outlive the input. scene: feeds its chambers; nullptr: not known, and channels are chambers.

@@ -2,6 +2,8 @@
 
 #include <ros/console.h>
 
+#include "ros/conversions.h"
+
 namespace live_stiffness {
 
 RegistrationService::RegistrationService(ros::NodeHandle private_node, std::shared_ptr<const StiffnessModel> model,

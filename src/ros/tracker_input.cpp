@@ -32,7 +32,7 @@ std::optional<Parsed<Pose>> TrackerInput::read(const tf2_msgs::TFMessage& transf
     transform.child_frame_id.clear();  // asked for by name
     return accept(readPose(transform, metresPerUnit(parameters_.position_unit)));
   } catch (const tf2::TransformException& error) {
-    status_.reject(error.what());
+    other_error_ = error.what();
     return std::nullopt;
   }
 }
