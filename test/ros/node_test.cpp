@@ -213,7 +213,8 @@ TEST_F(StiffnessNodeTest, TransformAndMarkersShowTheEstimate) {
   tf2_ros::TransformListener listener(buffer);
   const StiffnessSolution solution = expected(bent_);
   ASSERT_TRUE(publishUntil(bent_, [&] {
-    return solvedFor(bent_) && newest_markers_ && newest_markers_->markers.size() > 5 && buffer.canTransform("base", "tip", ros::Time(0)) &&
+    return solvedFor(bent_) && newest_markers_ && newest_markers_->markers.size() > 5 &&
+           buffer.canTransform("base", "tip", ros::Time(0)) &&
            std::abs(buffer.lookupTransform("base", "tip", ros::Time(0)).transform.translation.x -
                     solution.X_BT.p.x()) < 1e-7;
   }));
