@@ -86,7 +86,7 @@ void StiffnessNode::reconfigure(StiffnessConfig& wanted, uint32_t level) {
   }
   const std::scoped_lock lock(tracking_mutex_, estimation_mutex_);
   parameters_ = parameters;
-  if (contact) contact_.setEstimator(std::move(contact));
+  if (contact) comparison_.replaceFilter(std::move(contact));
   config_ = wanted;
 }
 
