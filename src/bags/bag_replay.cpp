@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <locale>
 #include <optional>
 #include <sstream>
 
@@ -199,6 +200,7 @@ ReplayReport replayBag(const std::string& bag, const std::string& out, const Sce
 
 std::string ReplayReport::text(const std::string& bag, double accuracy) const {
   std::ostringstream out;
+  out.imbue(std::locale::classic());
   out.precision(3);
   out << "# " << bag << "\n\n"
       << duration << " s of bag in " << wall_time << " s, " << duration / wall_time << " times real time.\n\n"

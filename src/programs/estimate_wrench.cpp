@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <iostream>
+#include <locale>
 #include <sstream>
 
 #include "command_line.h"
@@ -86,6 +87,7 @@ int main(int argc, char** argv) {
     model.stepping = Stepping::kContinuous;
     TipWrenchEstimator estimator(scene, model, filter);
     std::ostringstream out;
+    out.imbue(std::locale::classic());
     out.precision(6);
     writeHeader(out);
     std::vector<double> microseconds;
