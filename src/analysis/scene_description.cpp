@@ -19,7 +19,7 @@ std::string line(std::string title, const std::string& text) {
 }
 
 std::string millimetres(const Vector3& p) {
-  const auto text = [](double length) { return fixedText(1e3 * length + 0.0, 2); };
+  const auto text = [](double length) { return fixedText(1e-2 * std::round(1e5 * length) + 0.0, 2); };  // no -0.00
   return "(" + text(p.x()) + ", " + text(p.y()) + ", " + text(p.z()) + ") mm";
 }
 
@@ -85,6 +85,20 @@ struct Solver {
     workspace.reset();
     return model.solve(pressures, Wrench::Zero(), workspace);
   }
+
+  // Of the last solve: how far the arm turns from base to tip, rad; more than a turn where it coils up.
+  double turn() const {
+    constexpr int kParts = 8;  // of a segment
+    double sum = 0.0;
+    Vector3 before = Vector3::UnitZ();
+    for (int segment = 0; segment < model.scene().segmentCount(); ++segment)
+      for (int part = 1; part <= kParts; ++part) {
+        const Vector3 axis = model.station(workspace, segment, part / static_cast<double>(kParts)).X_BQ.R.col(2);
+        sum += std::atan2(before.cross(axis).norm(), before.dot(axis));
+        before = axis;
+      }
+    return sum;
+  }
 };
 
 // True if the robot, which has all weight on its axis, is straight at rest under so many times that.
@@ -103,30 +117,34 @@ std::string bucklingText(Scene scene) {
   while (high <= low && high < kMostWeights)
     if (high *= 2.0; staysStraight(scene, high)) low = high;
   if (low >= kMostWeights) return "at more than " + numberText(kMostWeights) + " times the weight along its axis";
-  while (high > 1.002 * low) {
+  while (high > 1.0002 * low) {
     const double middle = std::sqrt(low * high);
     (staysStraight(scene, middle) ? low : high) = middle;
   }
-  const std::string factor = numberText(std::round(1e3 * low / std::pow(10.0, std::floor(std::log10(low)))) / 1e3 *
-                                        std::pow(10.0, std::floor(std::log10(low))));
-  return "the straight arm buckles at " + factor + " times the weight along its axis" + (low < 1.0 ? ": IT CANNOT STAND" : "");
+  const std::string factor = fixedText(low, low < 10.0 ? 2 : 0);
+  return "the straight arm buckles at about " + factor + " times the weight along its axis" +
+         (low < 1.0 ? ": IT CANNOT STAND" : "");
 }
 
 std::string complianceText(const StiffnessSolution& rest) {
   const Matrix6& C = rest.compliance;
   const auto text = [&](int i) { return numberText(1e3 * C(i, i)); };
-  return "x " + text(0) + ", y " + text(1) + ", z " + text(2) + " mm/N; twist about z " + numberText(degrees(C(5, 5))) + " deg/(N m)";
+  return "x " + text(0) + ", y " + text(1) + ", z " + text(2) + " mm/N; twist about z " + numberText(degrees(C(5, 5))) +
+         " deg/(N m)";
 }
 
-// What a pressure in one chamber does; less than 1 bar where that is too much for it.
+// What a pressure in one chamber does; less than 1 bar where that is too much for it, or coils it up.
 std::string chamberText(Solver& solver, const StiffnessSolution& rest, int chamber) {
   double pressure = kBar;
   StiffnessSolution bent = solver.solve(chamber, pressure);
   std::string text;
-  for (; !bent.status.ok() && pressure > 1e-3 * kBar; bent = solver.solve(chamber, pressure)) {
-    if (text.empty()) text = codeName(bent.status.code) + std::string(" at 1 bar; ");
+  const auto is_too_much = [&] { return !bent.status.ok() || solver.turn() > kPi; };
+  for (; is_too_much() && pressure > 1e-3 * kBar; bent = solver.solve(chamber, pressure)) {
+    if (text.empty())
+      text = bent.status.ok() ? "coils up by " + degreesText(solver.turn()) : std::string(codeName(bent.status.code));
     pressure *= 0.5;
   }
+  if (!text.empty()) text += " at 1 bar; ";
   if (!bent.status.ok()) return text + "as at less";
   if (!text.empty()) text += "at " + numberText(pressure / kBar) + " bar ";
   const Vector3 moved = bent.X_BT.p - rest.X_BT.p;
@@ -145,8 +163,8 @@ std::string chambersText(const Scene& scene, Solver& solver, const StiffnessSolu
       [&](int, const Segment& segment) {
         for (double azimuth : segment.section.chambers.azimuths)
           if (chamber++ < kMostChambers)
-            text += line("chamber " + std::to_string(chamber), "(" + segment.name + ", azimuth " + numberText(degrees(azimuth)) +
-                         " deg) " + chamberText(solver, rest, chamber - 1));
+            text += line("chamber " + std::to_string(chamber), "(" + segment.name + ", azimuth " +
+                         numberText(degrees(azimuth)) + " deg) " + chamberText(solver, rest, chamber - 1));
       },
       [](const Link&) {});
   if (chamber > kMostChambers) text += "and " + std::to_string(chamber - kMostChambers) + " more chambers\n";
@@ -156,8 +174,8 @@ std::string chambersText(const Scene& scene, Solver& solver, const StiffnessSolu
 }  // namespace
 
 std::string describeScene(const Scene& scene) {
-  std::string text = line("lengths", lengthsText(scene)) + line("masses", massesText(scene)) + line("gravity", gravityText(scene)) +
-                     line("buckling", bucklingText(scene));
+  std::string text = line("lengths", lengthsText(scene)) + line("masses", massesText(scene)) +
+                     line("gravity", gravityText(scene)) + line("buckling", bucklingText(scene));
   Solver solver(scene);
   const StiffnessSolution rest = solver.solve(-1, 0.0);
   if (rest.status.ok()) {

@@ -22,23 +22,26 @@ constexpr double kStretched = 0.5;          // strain by what hangs or stands on
 
 class Doubts {
  public:
-  // "WHERE.KEY = VALUE UNIT: WHY"
+  void add(const std::string& where, const std::string& what) { texts_.push_back(where + ": " + what); }
   void add(const std::string& where, const std::string& key, double value, const std::string& why) {
-    texts_.push_back((where.empty() ? "" : where + ": ") + key + " = " + numberText(value) + ": " + why);
+    add(where, key + " = " + numberText(value) + ": " + why);
   }
-  void add(const std::string& where, const std::string& why) { texts_.push_back(where + ": " + why); }
   std::vector<std::string> take() { return std::move(texts_); }
 
  private:
   std::vector<std::string> texts_;
 };
 
+void checkLength(const std::string& where, double length, Doubts& doubts) {
+  if (length > kLongest)
+    doubts.add(where, "length_m", length, "longer than " + numberText(kLongest) + " m; if it is in mm, write " +
+               numberText(1e-3 * length) + ", if in cm, " + numberText(1e-2 * length));
+}
+
 void checkSizes(const std::string& where, const Segment& segment, Doubts& doubts) {
   const CrossSection& section = segment.section;
   const Chambers& chambers = section.chambers;
-  if (segment.length > kLongest)
-    doubts.add(where, "length_m", segment.length, "longer than " + numberText(kLongest) + " m; if it is in mm, write " +
-               numberText(1e-3 * segment.length));
+  checkLength(where, segment.length, doubts);
   if (section.outer_radius > kWidest) {
     doubts.add(where, "outer_radius_m", section.outer_radius, "more than " + numberText(kWidest) +
                " m; if it is in mm, write " + numberText(1e-3 * section.outer_radius));
@@ -74,8 +77,8 @@ void checkAzimuths(const std::string& where, const Chambers& chambers, Doubts& d
   for (double azimuth : chambers.azimuths) azimuths_deg.push_back(degrees(azimuth));
   if (areRadians(azimuths_deg)) {
     const double last = azimuths_deg.back();
-    doubts.add(where, "chamber_azimuths_deg ends with", last, "all chambers are within a few degrees; if these are radians, "
-               "write degrees, here " + numberText(degrees(last)));
+    doubts.add(where, "chamber_azimuths_deg up to " + numberText(last) + " deg: all chambers are within a few degrees; if "
+               "these are radians, write degrees, such as " + numberText(std::round(degrees(last))) + " for the last");
     return;
   }
   // Chambers in nearly one place may stand for a larger one, as the pairs of Shi et al. do, if there are others elsewhere and
@@ -100,14 +103,13 @@ void checkAzimuths(const std::string& where, const Chambers& chambers, Doubts& d
                "chamber_azimuths_deg and chamber_pitch_radius_m = " + numberText(chambers.pitch_radius));
 }
 
-// False if there is a doubt about Young's modulus.
-bool checkMaterial(const std::string& where, const CrossSection& section, Doubts& doubts) {
+void checkMaterial(const std::string& where, const CrossSection& section, Doubts& doubts) {
   const double E = section.youngs_modulus;
-  const bool fits = kModulus.contains(E);
   if (E < kModulus.low)
     doubts.add(where, "youngs_modulus_pa", E, std::string("softer than any elastomer, 5 kPa; ") +
-               (E >= 5.0 ? "if it is in kPa, write " + numberText(1e3 * E) : "if it is in MPa, write " + numberText(1e6 * E)));
-  else if (!fits)
+               (E >= 5.0 ? "if it is in kPa, write " + numberText(1e3 * E) : E >= 5e-3 ? "if it is in MPa, write " +
+                numberText(1e6 * E) : "if it is in GPa, write " + numberText(1e9 * E)));
+  else if (E > kModulus.high)
     doubts.add(where, "youngs_modulus_pa", E, "stiffer than elastomers and plastics, 5 GPa; right for metal or fibres only. "
                "If a smaller unit was meant, write " + numberText(1e-3 * E));
   const double ratio = section.shear_modulus / E;
@@ -118,12 +120,11 @@ bool checkMaterial(const std::string& where, const CrossSection& section, Doubts
     doubts.add(where, "density_kg_m3", section.density, section.density < kDensity.low
                ? "lighter than foam, 20 kg/m3; if it is in g/cm3, write " + numberText(1e3 * section.density)
                : "heavier than any metal; if it is in g/m3, write " + numberText(1e-3 * section.density));
-  return fits;
 }
 
-void checkMass(const std::string& where, double mass, double segments, bool has_weight, Doubts& doubts) {
-  const bool is_much = has_weight && segments > 0.0 && mass > kHeaviestLoad * segments;
-  if (mass > kHeaviest || is_much)
+// segments: mass of all; 0: not known.
+void checkMass(const std::string& where, double mass, double segments, Doubts& doubts) {
+  if (mass > kHeaviest || (segments > 0.0 && mass > kHeaviestLoad * segments))
     doubts.add(where, "mass_kg", mass, (segments > 0.0 ? numberText(mass / segments) + " times the mass of all segments, " +
                numberText(segments) + " kg" : "more than " + numberText(kHeaviest) + " kg") + "; if it is in g, write " +
                numberText(1e-3 * mass));
@@ -132,8 +133,8 @@ void checkMass(const std::string& where, double mass, double segments, bool has_
 void checkGravity(const Vector3& gravity, Doubts& doubts) {
   const double g = gravity.norm();
   if (g == 0.0 || kGravity.contains(g)) return;
-  doubts.add("", "gravity_m_s2 has the norm", g, "on Earth it is 9.81 m/s2; " +
-             std::string(g > kGravity.high ? "if it is in mm/s2, divide it by 1000" : "if it is in multiples of g, multiply it by 9.81"));
+  doubts.add("gravity_m_s2", "its norm is " + numberText(g) + " m/s2, and 9.81 on Earth; " +
+             (g > kGravity.high ? "if it is in mm/s2, divide it by 1000" : "if it is in multiples of g, multiply it by 9.81"));
 }
 
 }  // namespace
@@ -141,11 +142,17 @@ void checkGravity(const Vector3& gravity, Doubts& doubts) {
 std::vector<std::string> doubtsAbout(const Scene& scene) {
   Doubts doubts;
   const bool has_weight = scene.hasWeight();
-  double segments = 0.0;  // mass, kg
+  double segments = 0.0;  // mass of all, kg; 0 where a density is doubtful or masses do not matter
+  bool densities_fit = has_weight;
   walk(
-      scene, [&](int, const Segment& segment) { segments += segment.mass(); }, [](const Link&) {});
+      scene,
+      [&](int, const Segment& segment) {
+        segments += segment.mass();
+        densities_fit &= kDensity.contains(segment.section.density);
+      },
+      [](const Link&) {});
+  if (!densities_fit) segments = 0.0;
   if (scene.gravity) checkGravity(*scene.gravity, doubts);
-  bool moduli_fit = true;
   int links = 0;
   walk(
       scene,
@@ -153,19 +160,17 @@ std::vector<std::string> doubtsAbout(const Scene& scene) {
         const std::string where = "segment " + segment.name;
         checkSizes(where, segment, doubts);
         checkAzimuths(where, segment.section.chambers, doubts);
-        moduli_fit &= checkMaterial(where, segment.section, doubts);
+        checkMaterial(where, segment.section, doubts);
       },
       [&](const Link& link) {
         const std::string where = "link " + std::to_string(++links);
-        if (link.length > kLongest)
-          doubts.add(where, "length_m", link.length, "longer than " + numberText(kLongest) + " m; if it is in mm, write " +
-                     numberText(1e-3 * link.length));
-        checkMass(where, link.mass, segments, has_weight, doubts);
+        checkLength(where, link.length, doubts);
+        checkMass(where, link.mass, segments, doubts);
       });
-  checkMass("tip", scene.tip_mass, segments, has_weight, doubts);
+  checkMass("tip", scene.tip_mass, segments, doubts);
   const double offset = scene.tip_offset.norm();
   if (offset > std::max(1.0, 3.0 * scene.length()))
-    doubts.add("tip", "offset_m has the norm", offset, "far beyond the arm, which is " + numberText(scene.length()) +
+    doubts.add("tip", "offset_m: " + numberText(offset) + " m from the end of the arm, which is " + numberText(scene.length()) +
                " m long; if it is in mm, divide it by 1000");
   std::vector<std::string> texts = doubts.take();
   if (!texts.empty() || !has_weight) return texts;
@@ -176,11 +181,12 @@ std::vector<std::string> doubtsAbout(const Scene& scene) {
     const auto* segment = std::get_if<Segment>(&scene.chain[i]);
     if (segment == nullptr) continue;
     beyond += segment->mass();
-    const double force = beyond * scene.gravity->norm(), strain = force / (segment->section.youngs_modulus * segment->section.area(1.0));
+    const CrossSection& section = segment->section;
+    const double force = beyond * scene.gravity->norm(), strain = force / (section.youngs_modulus * section.area(1.0));
     if (!(strain > kStretched)) continue;
-    texts.push_back("segment " + segment->name + ": the weight from there to the tip, " + numberText(force) + " N, alone would strain it by " +
-                    numberText(100.0 * strain) + " %; are masses in kg, lengths in m and youngs_modulus_pa = " +
-                    numberText(segment->section.youngs_modulus) + " in Pa?");
+    texts.push_back("segment " + segment->name + ": the weight from there to the tip, " + numberText(force) +
+                    " N, would strain it by " + numberText(100.0 * strain) + " %; are masses in kg, lengths in m and " +
+                    "youngs_modulus_pa = " + numberText(section.youngs_modulus) + " in Pa?");
     break;
   }
   return texts;
