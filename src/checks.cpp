@@ -4,16 +4,17 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
+#include <locale>
 #include <sstream>
 
 namespace live_stiffness {
 namespace {
 
 std::string joined(const std::string& subject, const std::vector<std::string>& faults) {
-  std::ostringstream text;
-  text << subject << ": " << faults.size() << (faults.size() == 1 ? " fault" : " faults");
-  for (const std::string& fault : faults) text << "\n  - " << fault;
-  return text.str();
+  std::string text = subject + ": " + std::to_string(faults.size()) + (faults.size() == 1 ? " fault" : " faults");
+  for (const std::string& fault : faults) text += "\n  - " + fault;
+  return text;
 }
 
 }  // namespace
@@ -90,7 +91,15 @@ std::string oneLine(const std::vector<std::string>& texts) {
 
 std::string numberText(double value) {
   std::ostringstream text;
+  text.imbue(std::locale::classic());
   text << value;
+  return text.str();
+}
+
+std::string fixedText(double value, int decimals) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << std::fixed << std::setprecision(decimals) << value;
   return text.str();
 }
 

@@ -204,6 +204,39 @@ std::optional<double> finiteNumber(const std::string& text) {
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
+// The commas of a number may stand between thousands: each before three digits, and not in 0,060.
+static bool areThousands(const std::string& number) {
+  const char* const digits = "0123456789";
+  for (size_t comma = number.find(','); comma != std::string::npos; comma = number.find(',', comma + 1))
+    if (std::min(number.find_first_not_of(digits, comma + 1), number.size()) != comma + 4) return false;
+  return number.find_first_of("123456789") < number.find(',');
+}
+
+std::string numberHint(const std::string& text) {
+  const auto without = [](std::string from, const std::string& characters) {
+    const auto is_one = [&](char c) { return characters.find(c) != std::string::npos; };
+    from.erase(std::remove_if(from.begin(), from.end(), is_one), from.end());
+    return from;
+  };
+  std::string plain = without(text, " _'\"");
+  const std::string minus = "\xE2\x88\x92";  // U+2212, as word processors write it
+  if (plain.compare(0, minus.size(), minus) == 0) plain.replace(0, minus.size(), "-");
+  if (plain.find(',') != std::string::npos) {
+    const size_t last = plain.rfind(',');
+    const std::string thousands = areThousands(plain) ? without(plain, ",") : "";
+    const std::string decimal =
+        plain.find(',') == last ? without(plain.substr(0, last), ".") + "." + plain.substr(last + 1) : "";
+    if (finiteNumber(decimal)) return "; write " + decimal + (finiteNumber(thousands) ? " or " + thousands : "");
+    return finiteNumber(thousands) ? "; write " + thousands : "";
+  }
+  if (finiteNumber(plain)) return "; write " + plain;
+  const auto may_begin_unit = [](unsigned char c) { return ((c | 32) >= 'a' && (c | 32) <= 'z') || c == '%' || c > 127; };
+  for (size_t size = plain.size(); size-- > 0;)
+    if (finiteNumber(plain.substr(0, size)) && may_begin_unit(plain[size]))
+      return "; write the number alone, " + plain.substr(0, size) + ", in the unit that the key ends in";
+  return "";
+}
+
 std::optional<std::vector<double>> numberList(const std::string& text, char separator) {
   std::vector<double> numbers;
   for (const std::string& part : splitText(text, separator)) {

@@ -68,6 +68,9 @@ std::vector<std::string> splitText(const std::string& text, char separator);
 // A finite number that fills the whole text.
 std::optional<double> finiteNumber(const std::string& text);
 
+// How to write what finiteNumber() does not take, as the end of a message: "; write 1.5" for 1,5. Empty if there is no guess.
+std::string numberHint(const std::string& text);
+
 // The numbers between separators; none unless all parts of the text are finite numbers.
 std::optional<std::vector<double>> numberList(const std::string& text, char separator);
 

@@ -1,5 +1,7 @@
 #pragma once
-// A YAML mapping whose every key must be asked for: reads values, collects faults, reports keys nobody asked for.
+// A YAML mapping whose every key must be asked for: reads values, collects faults, reports keys nobody asked for. Numbers
+// have a decimal point whatever the locale of the process. `<<` takes over the keys of another mapping, or of a list of
+// them, that are not there yet (YAML's merge key).
 
 #include <yaml-cpp/yaml.h>
 
@@ -41,14 +43,23 @@ class YamlMap {
  private:
   std::string name(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
   double readNumber(const YAML::Node& node, const std::string& name, const Range& range);
+  void take(const YAML::Node& mapping, std::vector<YAML::Node>& taken);
+
+  struct Entry {
+    std::string key;
+    YAML::Node key_node, value;
+    bool repeated;  // in the mapping where it stands
+  };
 
   YAML::Node node_;
   std::string path_;
   FaultList& faults_;
-  std::set<std::string> asked_;
+  std::vector<Entry> entries_;  // its own keys before those that << takes over
+  std::set<std::string> keys_, asked_;
 };
 
-// Hands the first document of a text to `read`. A text that is not YAML becomes a fault.
+// Hands the first document of a text to `read`. A text that is not YAML becomes a fault. Keys of the document that hold what
+// an alias stands for count as asked for.
 void readDocument(const std::string& yaml, FaultList& faults, const std::function<void(YamlMap&)>& read);
 
 // True if the key `kind` of a scene is the one that a loader reads: "serial" (also if missing) or "parallel". Else a

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "support/decimal_comma.h"
+
 namespace live_stiffness {
 namespace {
 
@@ -61,6 +63,14 @@ TEST(FaultList, ChecksParametersInTheUnitOfTheirKeys) {
                                                        "~angle_deg = nan: must be >= 0 and <= 57",
                                                        "~law = hooke: must be one of gent, yeoh",
                                                        "~shares[1] = 2: must be >= 0 and <= 1"}));
+}
+
+TEST(NumberText, HasAPointWhateverTheLocaleOfTheProcess) {
+  const DecimalComma comma;
+  EXPECT_EQ(numberText(1234.5), "1234.5");
+  EXPECT_EQ(fixedText(1234.567, 2), "1234.57");
+  EXPECT_EQ(std::string(ConfigurationError("pump", std::vector<std::string>(1000, "f")).what()).substr(0, 17),
+            "pump: 1000 faults");
 }
 
 TEST(FaultList, WithoutFaultsDoesNotThrow) {

@@ -2,10 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <clocale>
-#include <cstdlib>
-#include <filesystem>
 #include <sstream>
+
+#include "support/decimal_comma.h"
 
 namespace live_stiffness {
 namespace {
@@ -146,22 +145,23 @@ TEST(NumberList, IsAllNumbersOrNone) {
 
 // In a German locale strtod() takes a comma, and stops at the point.
 TEST(FiniteNumber, HasAPointWhateverTheLocaleOfTheProcess) {
-  const std::filesystem::path folder = std::string(::testing::TempDir()) + "csv_table_locale";
-  std::filesystem::create_directories(folder);
-  const std::string command = "localedef -i de_DE -f UTF-8 " + (folder / "de_DE.UTF-8").string() + " 2>/dev/null";
-  if (std::system(command.c_str()) != 0) GTEST_SKIP() << "no localedef, or none of its sources (package locales)";
-  const char* const before = std::getenv("LOCPATH");
-  setenv("LOCPATH", folder.c_str(), 1);
-  const bool is_set = std::setlocale(LC_ALL, "de_DE.UTF-8") != nullptr;
-  const double with_point = std::strtod("1.5", nullptr);
-  const std::optional<double> number = finiteNumber("1.5"), comma = finiteNumber("1,5");
-  std::setlocale(LC_ALL, "C");
-  if (before == nullptr) unsetenv("LOCPATH");
-  std::filesystem::remove_all(folder);
-  ASSERT_TRUE(is_set);
-  ASSERT_EQ(with_point, 1.0) << "the locale is no German one";
-  EXPECT_EQ(number, 1.5);
-  EXPECT_FALSE(comma);
+  const GermanC german(std::string(::testing::TempDir()) + "csv_table_locale");
+  if (!german.isSet()) GTEST_SKIP() << "no localedef, or none of its sources (package locales)";
+  EXPECT_EQ(finiteNumber("1.5"), 1.5);
+  EXPECT_FALSE(finiteNumber("1,5"));
+}
+
+TEST(FiniteNumber, SaysHowToWriteWhatItDoesNotTake) {
+  const std::pair<const char*, const char*> hints[] = {
+      {"1,5", "; write 1.5"}, {"0,060", "; write 0.060"}, {"-1,5e3", "; write -1.5e3"},
+      {"120,000", "; write 120.000 or 120000"}, {"1,234.5", "; write 1234.5"}, {"1.234,5", "; write 1234.5"},
+      {"1,234,567", "; write 1234567"}, {"1_000", "; write 1000"}, {"12 000", "; write 12000"},
+      {"\xE2\x88\x92" "9.81", "; write -9.81"},
+      {"12e3Pa", "; write the number alone, 12e3, in the unit that the key ends in"},
+      {"40 mm", "; write the number alone, 40, in the unit that the key ends in"},
+      {"3.5 \xC2\xB5m", "; write the number alone, 3.5, in the unit that the key ends in"},
+      {"wide", ""}, {"", ""}, {"1/3", ""}, {".nan", ""}, {"inf", ""}, {",", ""}, {"1,2,3.4", ""}};
+  for (const auto& [text, hint] : hints) EXPECT_EQ(numberHint(text), hint) << text;
 }
 
 }  // namespace

@@ -130,7 +130,10 @@ std::string readTextFile(const std::string& subject, const std::string& path);
 // All texts in one line, with "; " between them.
 std::string oneLine(const std::vector<std::string>& texts);
 
-// A number as people write it: shortest text that reads back to the same value up to 6 digits.
+// A number as people write it: shortest text that reads back to the same value up to 6 digits. With a decimal point
+// whatever the locale of the process.
 std::string numberText(double value);
+// The same with a number of digits after the point.
+std::string fixedText(double value, int decimals);
 
 }  // namespace live_stiffness

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <locale>
 #include <sstream>
 
 #include "bags/output_bag.h"
@@ -127,6 +128,7 @@ ReplayReport replayBags(const std::vector<std::string>& bags, const std::string&
 
 std::string ReplayReport::text(const std::string& bag, const NodeParameters& parameters) const {
   std::ostringstream out;
+  out.imbue(std::locale::classic());
   out.precision(3);
   out << "# " << bag << "\n\n"
       << duration << " s of bag in " << wall_time << " s, " << duration / wall_time << " times real time.\n\n"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <locale>
 #include <sstream>
 
@@ -21,9 +20,7 @@ std::string padded(std::string text, size_t width) {
 std::string inUnit(const SceneParameter& parameter, double si) { return numberText(si / parameter.unit); }
 
 std::string percent(double share) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f %%", 100.0 * share);
-  return text;
+  return fixedText(100.0 * share, 1) + " %";
 }
 
 std::string errorsText(const ComplianceFit& fit) {

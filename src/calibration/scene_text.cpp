@@ -6,6 +6,7 @@
 
 #include "csv_table.h"
 #include "live_stiffness/checks.h"
+#include "live_stiffness/rod/scene_file.h"
 #include "part_file.h"
 
 namespace live_stiffness {
@@ -24,13 +25,25 @@ std::string exact(double value) {
 
 std::string list(const Vector3& v) { return "[" + exact(v.x()) + ", " + exact(v.y()) + ", " + exact(v.z()) + "]"; }
 
+// In quotes, so that it may hold what YAML has a use for, such as # or a colon.
+std::string quoted(const std::string& text) {
+  std::string quotes = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') quotes += std::string("\\") + c;
+    else if (code >= ' ' && code != 127) quotes += c;
+    else quotes += std::string("\\x") + "0123456789abcdef"[code / 16] + "0123456789abcdef"[code % 16];
+  }
+  return quotes + "\"";
+}
+
 void writeSegment(std::ostream& out, const Segment& segment) {
   const CrossSection& section = segment.section;
   const auto line = [&](const std::string& key, const std::string& value) {
     out << "      " << key << ": " << value << "\n";
   };
   out << "  - segment:\n";
-  line("name", segment.name);
+  line("name", quoted(segment.name));
   line("length_m", exact(segment.length));
   line("outer_radius_m", exact(section.outer_radius));
   line("lumen_radius_m", exact(section.lumen_radius));
@@ -84,7 +97,13 @@ std::string sceneText(const Scene& scene, const std::string& comment) {
 }
 
 void saveSceneFile(const std::string& path, const Scene& scene, const std::string& comment) {
-  writeTextFile("scene", path, sceneText(scene, comment));
+  const std::string text = sceneText(scene, comment);
+  try {
+    parseScene(text, path);
+  } catch (const ConfigurationError& error) {
+    throw ConfigurationError("scene " + path + " is not written, since it could not be read again", error.faults());
+  }
+  writeTextFile("scene", path, text);
 }
 
 }  // namespace live_stiffness

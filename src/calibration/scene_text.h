@@ -11,7 +11,7 @@ namespace live_stiffness {
 // line of `comment` becomes a comment on top.
 std::string sceneText(const Scene& scene, const std::string& comment = "");
 
-// Writes it to a file; throws ConfigurationError if that fails.
+// Writes it to a file, whole and only if it reads back; throws ConfigurationError with the reason otherwise.
 void saveSceneFile(const std::string& path, const Scene& scene, const std::string& comment = "");
 
 }  // namespace live_stiffness

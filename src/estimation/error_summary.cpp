@@ -3,8 +3,9 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
+
+#include "live_stiffness/checks.h"
 
 namespace live_stiffness {
 
@@ -35,10 +36,9 @@ ErrorSummary summarizeErrors(std::vector<double> errors) {
 }
 
 std::string millimetreText(const ErrorSummary& summary) {
-  char text[160];
-  std::snprintf(text, sizeof(text), "mean %.2f, RMS %.2f, p95 %.2f, max %.2f mm (%d samples)", 1e3 * summary.mean,
-                1e3 * summary.rms, 1e3 * summary.p95, 1e3 * summary.max, summary.count);
-  return text;
+  const auto text = [](double length) { return fixedText(1e3 * length, 2); };
+  return "mean " + text(summary.mean) + ", RMS " + text(summary.rms) + ", p95 " + text(summary.p95) + ", max " +
+         text(summary.max) + " mm (" + std::to_string(summary.count) + " samples)";
 }
 
 }  // namespace live_stiffness

@@ -1,7 +1,6 @@
 #include "estimation/registration_buffer.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <numeric>
 
 #include "live_stiffness/checks.h"
@@ -146,12 +145,11 @@ LiveRegistration RegistrationBuffer::fit(const RegistrationWindow& window) const
 }
 
 std::string LiveRegistration::text() const {
-  char angle[80];
-  std::snprintf(angle, sizeof angle, "mean %.2f, RMS %.2f, max %.2f deg", degrees(fit.rotation.mean),
-                degrees(fit.rotation.rms), degrees(fit.rotation.max));
+  const auto angle = [](double value) { return fixedText(degrees(value), 2); };
   std::string text = std::to_string(used) + " samples over " + numberText(span) + " s, " + std::to_string(outliers) +
                      " outliers left out\ntip error after registration: " + millimetreText(fit.position) +
-                     "\nrotation: " + angle + "\n";
+                     "\nrotation: mean " + angle(fit.rotation.mean) + ", RMS " + angle(fit.rotation.rms) + ", max " +
+                     angle(fit.rotation.max) + " deg\n";
   return text + (fit.determined() ? "determined by the motion" : "NOT determined: " + fit.advice());
 }
 

@@ -86,6 +86,7 @@ ContactScore contactScore(const std::vector<ContactSample>& samples) {
 
 std::string ContactScore::text() const {
   std::ostringstream out;
+  out.imbue(std::locale::classic());
   out.precision(3);
   out << pushes << " pushes, " << during << " samples. Force: RMS error " << rms << " N (of " << rms_truth << " N), peak "
       << peak << " N (measured " << peak_truth << " N). Compliant components: RMS error " << rms_compliant << " N (of "

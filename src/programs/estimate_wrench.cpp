@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <iostream>
+#include <locale>
 #include <sstream>
 
 #include "analysis/scene_description.h"
@@ -118,6 +119,7 @@ int main(int argc, char** argv) {
     StiffnessWorkspace workspace = estimator.model().makeWorkspace();
     const Pose at_rest = estimator.model().solve(Pressures::Zero(scene.chamberCount()), Wrench::Zero(), workspace).X_BT;
     std::ostringstream out;
+    out.imbue(std::locale::classic());
     out.precision(6);
     writeHeader(out);
     std::vector<double> microseconds;

@@ -2,11 +2,11 @@
 
 #include "command_line.h"
 #include "rig/rig_model.h"
-#include "live_stiffness/rod/scene_file.h"
 #include "bags/bag_reader.h"
 #include "bags/output_bag.h"
 #include "parameter_options.h"
 #include "progress_bar.h"
+#include "scene_doubts.h"
 
 namespace po = boost::program_options;
 using namespace live_stiffness;
@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
       faults.add("push-n has " + std::to_string(push_n.size()) + " numbers: must be three, X Y Z");
     else if (!push_n.empty()) contact.wrench << push_n[0], push_n[1], push_n[2], 0.0, 0.0, 0.0;
     faults.throwIfAny();
-    const Scene scene = loadSceneFile(scene_path);
+    const Scene scene = loadSceneWithDoubts(scene_path);
     if (channels > 0) rig_options.channel_of_chamber = ChannelMap::even(channels, scene.chamberCount()).channelOfChamber();
     if (!registration_path.empty()) rig_options.registration = loadRegistrationFile(registration_path);
     RigModel rig(scene, rig_options);

@@ -11,10 +11,10 @@
 #include "command_line.h"
 #include "csv_table.h"
 #include "analysis/stiffness_finder.h"
-#include "live_stiffness/rod/scene_file.h"
 #include "map_table.h"
 #include "parameter_options.h"
 #include "progress_bar.h"
+#include "scene_doubts.h"
 
 namespace po = boost::program_options;
 using namespace live_stiffness;
@@ -215,7 +215,7 @@ int main(int argc, char** argv) {
     ModelOptions model_options = namedModelOptions(a.model, a.stepping, faults);
     faults.throwIfAny();
     model_options.accuracy = finds ? std::min(a.accuracy, 1e-10) : a.accuracy;
-    const StiffnessModel model(loadSceneFile(a.scene), model_options);
+    const StiffnessModel model(loadSceneWithDoubts(a.scene), model_options);
     const ChannelMap channels = readChannels(a, model.scene().chamberCount());
     return finds ? find(model, channels, a) : sweep(model, channels, a);
   });

@@ -1,4 +1,5 @@
-// stiffness_solve SCENE.yaml [options] < pressures.csv > results.csv: the model without a ROS master.
+// stiffness_solve SCENE.yaml [options] < pressures.csv > results.csv: the model without a ROS master. Without a table it
+// describes the scene.
 
 #include <algorithm>
 #include <chrono>
@@ -7,8 +8,8 @@
 
 #include "command_line.h"
 #include "live_stiffness/analysis/deflection.h"
-#include "live_stiffness/rod/scene_file.h"
 #include "parameter_options.h"
+#include "scene_doubts.h"
 #include "solve_table.h"
 
 namespace po = boost::program_options;
@@ -88,7 +89,8 @@ std::vector<double> readFractions(const std::string& text, FaultList& faults) {
 }
 
 const char* const kHelp =
-    "stiffness_solve SCENE.yaml [options] < pressures.csv > results.csv\n\n"
+    "stiffness_solve SCENE.yaml [options] < pressures.csv > results.csv\n"
+    "stiffness_solve SCENE.yaml --describe\n\n"
     "In:  header p_1_pa,...,p_N_pa (gauge, one column per chamber, base to tip) and optionally\n"
     "     fx_n,fy_n,fz_n,mx_nm,my_nm,mz_nm (dead wrench at the tip point, base axes).\n"
     "Out: status,iterations,solve_us, tip position and quaternion, then the tangent (c_ij) and material\n"
@@ -96,6 +98,9 @@ const char* const kHelp =
     "     --stations: s1_0.5_x_m ... s1_0.5_qz, s1_0.5_material_11 ... of segment 1 at half its length\n"
     "     (of what lies between base and there). --deflection: tangent_linear_x_m ...,\n"
     "     tangent_exponential_x_m ..., material_linear_x_m ..., material_exponential_x_m ...\n"
+    "--describe, or a table that is empty (< /dev/null): instead what the scene means: lengths, masses,\n"
+    "     gravity, tip and compliance at rest, margin to buckling, where 1 bar in each chamber moves the tip;\n"
+    "     and doubts, values that look like a slip. With a table these are warnings on standard error.\n"
     "Exit status: 0 all rows solved, 1 some failed (see standard error), 2 nothing could be done.\n\n";
 
 }  // namespace
@@ -103,6 +108,7 @@ const char* const kHelp =
 int main(int argc, char** argv) {
   std::string scene_path, model_name, stepping, stations;
   Further further;
+  bool describes = false;
   ModelOptions model_options;
   po::options_description options = helpOption();
   options.add_options()
@@ -110,6 +116,7 @@ int main(int argc, char** argv) {
                                        "length, such as 0.5,1")
     ("deflection", po::bool_switch(&further.deflection),
      "also where (19) and its linear part predict the tip, from both compliances without the wrench")
+    ("describe", po::bool_switch(&describes), "print what the scene means, and what in it is doubtful; no table is read")
     ("scene", po::value(&scene_path)->required(), "scene file");
   addOption(options, kModel, model_name);
   addOption(options, kStepping, stepping);
@@ -119,8 +126,12 @@ int main(int argc, char** argv) {
     model_options = namedModelOptions(model_name, stepping, faults, model_options);
     further.fractions = readFractions(stations, faults);
     faults.throwIfAny();
-    const StiffnessModel model(loadSceneFile(scene_path), model_options);
     std::ios::sync_with_stdio(false);
+    if (describes || std::cin.peek() == std::istream::traits_type::eof()) {
+      std::cout << describeScene(loadSceneFile(scene_path));
+      return kExitOk;
+    }
+    const StiffnessModel model(loadSceneWithDoubts(scene_path), model_options);
     InputTable table(std::cin, numberedColumns("p_", "_pa", model.scene().chamberCount()));
     return solveAll(model, further, table) > 0 ? kExitPartly : kExitOk;
   });

@@ -26,6 +26,8 @@ Chambers readChambers(YamlMap& map) {
   return chambers;
 }
 
+const char* const kRadii = " (is none of them a diameter?)";
+
 // Faults of a section whose single values are legal but do not fit together.
 void checkGeometry(const CrossSection& section, YamlMap& map) {
   const Chambers& chambers = section.chambers;
@@ -33,10 +35,10 @@ void checkGeometry(const CrossSection& section, YamlMap& map) {
   if (chambers.count() == 0) return;
   if (chambers.pitch_radius + chambers.radius > section.outer_radius)
     map.fault("chamber_pitch_radius_m", text(chambers.pitch_radius) + " puts the chambers through the outer wall: "
-              "with chamber_radius_m must be at most outer_radius_m, " + text(section.outer_radius));
+              "with chamber_radius_m must be at most outer_radius_m, " + text(section.outer_radius) + kRadii);
   if (chambers.pitch_radius - chambers.radius < section.lumen_radius && section.lumen_radius > 0.0)
     map.fault("chamber_pitch_radius_m", text(chambers.pitch_radius) + " puts the chambers into the lumen: "
-              "less chamber_radius_m must be at least lumen_radius_m, " + text(section.lumen_radius));
+              "less chamber_radius_m must be at least lumen_radius_m, " + text(section.lumen_radius) + kRadii);
   if (section.lumen_radius < section.outer_radius && !SectionMoments(section).isValidAt(1.0))
     map.fault("chamber_radius_m", text(chambers.radius) + " leaves no solid area: make the chambers smaller or fewer");
 }

@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
+
 #include "calibration/compliance_table.h"
 #include "calibration/scene_text.h"
 #include "live_stiffness/checks.h"
 #include "live_stiffness/rod/scene_file.h"
+#include "support/decimal_comma.h"
 #include "support/scenes.h"
 
 namespace live_stiffness {
@@ -37,6 +40,36 @@ TEST(SceneText, ReadsBackToTheSameScene) {
     EXPECT_EQ(back.tip_mass, scene.tip_mass);
     EXPECT_EQ(back.gravity->z(), scene.gravity->z());
   }
+}
+
+TEST(SceneText, KeepsAnyName) {
+  for (const char* name : {"segment #1", "a: b", "- a", "[a", "{a", "\"a\"", "it's", " a ", "null", "~", "&a", "*a", "!a",
+                           "%a", "@a", "\\", "two\nlines", "tab\t\r", "\xC3\xBC", "1,5", "a\x01\x7f"}) {
+    Scene scene = paperScene(1);
+    segmentOf(scene, 0).name = name;
+    Scene back = parseScene(sceneText(scene, "comment"), "back");
+    EXPECT_EQ(segmentOf(back, 0).name, name);
+  }
+}
+
+// What could not be read again leaves what was there before.
+TEST(SceneText, IsWrittenWholeAndLoadableOrNotAtAll) {
+  const std::string path = std::string(::testing::TempDir()) + "scene_text.yaml";
+  Scene scene = paperScene(1);
+  {
+    const DecimalComma comma;
+    saveSceneFile(path, scene, "before");
+  }
+  segmentOf(scene, 0).section.youngs_modulus = -1.0;
+  try {
+    saveSceneFile(path, scene);
+    FAIL() << "written";
+  } catch (const ConfigurationError& error) {
+    EXPECT_NE(std::string(error.what()).find("not written, since it could not be read again"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("youngs_modulus_pa = -1: must be > 0"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(readTextFile("scene", path), sceneText(paperScene(1), "before"));
+  std::remove(path.c_str());
 }
 
 TEST(SceneFile, RefusesMaterialsThatDoNotFitTogether) {

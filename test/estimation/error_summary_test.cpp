@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "support/decimal_comma.h"
+
 namespace live_stiffness {
 namespace {
 
@@ -32,6 +34,7 @@ TEST(ErrorSummary, DoesNotHideNan) {
 }
 
 TEST(ErrorSummary, TextIsInMillimetres) {
+  const DecimalComma comma;  // of others in the process
   EXPECT_EQ(millimetreText(summarizeErrors({0.001, 0.001})),
             "mean 1.00, RMS 1.00, p95 1.00, max 1.00 mm (2 samples)");
 }

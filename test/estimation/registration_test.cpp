@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "live_stiffness/checks.h"
+#include "support/decimal_comma.h"
 
 namespace live_stiffness {
 namespace {
@@ -80,6 +81,20 @@ TEST(Registration, ReportsAllFaultsAtOnce) {
   EXPECT_EQ(faults.size(), 6u) << ConfigurationError("got", faults).what();
   EXPECT_EQ(faultsOf("{}").size(), 2u);
   EXPECT_EQ(faultsOf("[1, 2").size(), 1u);
+}
+
+TEST(Registration, ReadsAndWritesTheSameWhateverTheLocaleOfTheProcess) {
+  const std::string text = registrationText(parseRegistration(kGood, "test"), "");
+  const DecimalComma comma;
+  EXPECT_EQ(registrationText(parseRegistration(kGood, "test"), ""), text);
+}
+
+TEST(Registration, TakesMergeKeys) {
+  const Registration registration = parseRegistration(
+      "upright: &upright {quaternion_wxyz: [1, 0, 0, 0], position_m: [0, 0, 0]}\n"
+      "base_in_tracker: {<<: *upright, position_m: [0.1, 0.2, 0.3]}\nsensor_on_tip: *upright\n", "test");
+  EXPECT_EQ(registration.X_AB.p, Vector3(0.1, 0.2, 0.3));
+  EXPECT_EQ(registration.X_TS.p, Vector3(0.0, 0.0, 0.0));
 }
 
 TEST(Registration, ZeroQuaternionIsNamed) {

@@ -55,6 +55,15 @@ TEST(ParallelSceneFile, TakesHeightsAxesAndSectionsOfSingleRods) {
   EXPECT_EQ(scene.platform_mass, 0.0);
 }
 
+TEST(ParallelSceneFile, TakesMergeKeys) {
+  const ParallelScene scene = parseParallelScene(
+      "kind: parallel\nrod_section: " + kSection + "\nhole: &hole {radius_m: 0.1, height_m: 0.02}\nrods:\n"
+      "  - {base: {<<: *hole, azimuth_deg: 90}, platform: {azimuth_deg: 180, radius_m: 0.05, <<: *hole}}\n", "test");
+  ASSERT_EQ(scene.rodCount(), 1);
+  EXPECT_TRUE(matrixNear(scene.rods[0].X_BD.p, Vector3(0.0, 0.1, 0.02), 1e-16));
+  EXPECT_TRUE(matrixNear(scene.rods[0].X_PE.p, Vector3(-0.05, 0.0, 0.02), 1e-16));
+}
+
 TEST(ParallelSceneFile, ListsAllFaults) {
   expectIn(faultsOf("kind: parallel\n"), {"rods is missing"});
   expectIn(faultsOf("kind: parallel\nrods: []\n"), {"at least one rod"});

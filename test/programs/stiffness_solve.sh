@@ -60,6 +60,26 @@ solve '' --model lcm --stepping continuous
 [ $status = 2 ] && grep -q contradicts "$work/err" || fail "contradiction"
 solve 'p_1_pa\n'
 [ $status = 2 ] && grep -q "p_6_pa is missing" "$work/err" || fail "missing columns"
+# A scene alone is described, and so it is if asked; doubts are warnings beside a table.
+solve ''
+[ $status = 0 ] && grep -q "the arm stands" "$work/out" && grep -q "^No doubts" "$work/out" || fail "description"
+solve 'p_1_pa\n' --describe
+[ $status = 0 ] && grep -q "^buckling" "$work/out" || fail "--describe"
+[ ! -s "$work/err" ] || fail "doubts about a good scene"
+good=$scene scene=$work/kpa.yaml
+sed 's/youngs_modulus_pa: 90060.0/youngs_modulus_pa: 90.06/' "$good" >"$scene"
+solve 'p_1_pa,p_2_pa,p_3_pa,p_4_pa,p_5_pa,p_6_pa\n0,0,0,0,0,0\n' 
+[ "$(grep -c 'warning: scene .*youngs_modulus_pa = 90.06.*kPa, write 90060' "$work/err")" = 1 ] || fail "no doubt about E in kPa"
+grep -q youngs "$work/out" && fail "a doubt in the table"
+solve ''
+[ $status = 0 ] && grep -q "  - .*kPa, write 90060" "$work/out" || fail "no doubt in the description"
+
+# Names that need quotes, merge keys.
+scene=$work/merge.yaml
+printf 'all: &all {length_m: 0.06, outer_radius_m: 0.015, chamber_azimuths_deg: [], youngs_modulus_pa: 1.0e5, poissons_ratio: 0.5}
+chain: [segment: {<<: *all, name: "#1"}, segment: {<<: *all, name: "a: b"}]\n' >"$scene"
+solve ''
+[ $status = 0 ] && grep -q "lengths     120 mm: #1 60, a: b 60" "$work/out" || fail "merge keys"
 scene=/nonexistent.yaml
 solve ''
 [ $status = 2 ] && grep -q "cannot be read" "$work/err" || fail "missing scene"

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "live_stiffness/checks.h"
+#include "support/decimal_comma.h"
 #include "support/matrix_near.h"
 #include "support/scenes.h"
 
@@ -125,7 +126,7 @@ wind: 3
       "gravity_m_s2 is 2 entries: must be a list of 3 finite numbers (line 1)",
       "chain[0].segment.length_m = -0.04: must be > 0 (line 4)",
       "chain[0].segment.outer_radius_m = wide: must be a number, > 0 (line 5)",
-      "chain[0].segment.lumen_radius_m = .nan: must be >= 0 (line 6)",
+      "chain[0].segment.lumen_radius_m = .nan: must be a number, >= 0 (line 6)",
       "chain[0].segment.chamber_pitch_radius_m is missing: must be a number, >= 0 (line 4)",
       "chain[0].segment.chamber_azimuths_deg[1] = x: must be a number, any finite number (line 8)",
       "chain[0].segment.youngs_modulus_pa = 0: must be > 0 (line 9)",
@@ -186,6 +187,86 @@ TEST(SceneFile, RefusesWhatIsNotYamlOrNotAScene) {
   EXPECT_TRUE(holds(faultsOf(chainOf("  - segment: 3")), {"chain[0].segment: must be a mapping"}));
   EXPECT_TRUE(holds(faultsOf(chainOf("  - 3")), {"chain[0]: must be a mapping"}));
   EXPECT_TRUE(holds(faultsOf("tip: 3\n" + chainOf("  - segment: " + kSegment)), {"tip: must be a mapping"}));
+}
+
+// Numbers with three decimals are those that a locale may take for thousands.
+TEST(SceneFile, ReadsTheSameNumbersWhateverTheLocaleOfTheProcess) {
+  const std::string chain = chainOf("  - segment: " + kSegment + "\n") + "tip: {mass_kg: +1.5e-2, offset_m: [.5, -0.060, 5.]}\n";
+  const auto check = [&] {
+    const Scene scene = parseScene(chain, "test");
+    EXPECT_EQ(scene.length(), 0.04);
+    EXPECT_EQ(scene.tip_mass, 0.015);
+    EXPECT_EQ(scene.tip_offset, Vector3(0.5, -0.060, 5.0));
+    EXPECT_TRUE(holds(faultsOf("tip: {mass_kg: -0.060}\nchain: []"), {"mass_kg = -0.060: must be >= 0"}));
+  };
+  check();
+  const DecimalComma comma;
+  check();
+  const GermanC german(std::string(::testing::TempDir()) + "scene_file_locale");
+  if (!german.isSet()) GTEST_SKIP() << "of C's locales: no localedef, or none of its sources (package locales)";
+  check();
+}
+
+TEST(SceneFile, SaysHowToWriteANumber) {
+  EXPECT_TRUE(holds(faultsOf("tip:\n  mass_kg: 0,015\n  offset_m: [8 mm, 0, 0]\nchain: []"),
+                    {"tip.mass_kg = 0,015: must be a number, >= 0; write 0.015 (line 2)",
+                     "tip.offset_m[0] = 8 mm: must be a number, any finite number; write the number alone, 8, in the unit"}));
+}
+
+TEST(SceneFile, TakesMergeKeys) {
+  const std::string text =
+      "soft: &soft {youngs_modulus_pa: 120.0e3, poissons_ratio: 0.5}\n"
+      "sizes:\n"
+      "  - &tube\n"
+      "    length_m: 0.060\n"
+      "    outer_radius_m: 0.015\n"
+      "    chamber_azimuths_deg: []\n"
+      "  - &thin {<<: *tube, outer_radius_m: 0.005}\n"
+      "weight: &weight 0.012\n"
+      "chain:\n"
+      "  - segment: {<<: [*tube, *soft], name: lower, length_m: 0.04}\n"
+      "  - segment: {name: upper, <<: [*soft, *thin, *tube]}\n"
+      "  - segment:\n"
+      "      <<: {<<: *tube, youngs_modulus_pa: 1.0e5}\n"
+      "      shear_modulus_pa: 4.0e4\n"
+      "tip: {mass_kg: *weight}\n";
+  ASSERT_EQ(faultsOf(text), "none");
+  Scene scene = parseScene(text, "test");
+  EXPECT_EQ(segmentOf(scene, 0).name, "lower");
+  EXPECT_EQ(segmentOf(scene, 0).length, 0.04);
+  EXPECT_EQ(segmentOf(scene, 0).section.outer_radius, 0.015);
+  EXPECT_EQ(segmentOf(scene, 1).length, 0.06);
+  EXPECT_EQ(segmentOf(scene, 1).section.outer_radius, 0.005);
+  EXPECT_EQ(segmentOf(scene, 1).section.youngs_modulus, 120e3);
+  EXPECT_EQ(segmentOf(scene, 2).section.youngs_modulus, 1e5);
+  EXPECT_EQ(scene.tip_mass, 0.012);
+}
+
+TEST(SceneFile, ChecksWhatMergeKeysTakeOver) {
+  const std::string merged =
+      "defaults: &d\n"
+      "  length_m: wide\n"
+      "  colour: blue\n"
+      "  outer_radius_m: 0.015\n"
+      "  outer_radius_m: 0.016\n"
+      "chain:\n"
+      "  - segment: {<<: *d}\n";
+  EXPECT_TRUE(holds(faultsOf(merged), {"chain[0].segment.length_m = wide: must be a number, > 0 (line 2)",
+                                       "chain[0].segment.colour: unknown key; known here: ",
+                                       "(line 3)", "chain[0].segment.outer_radius_m: is given more than once (line 5)"}));
+  EXPECT_EQ(faultsOf(merged).find("defaults:"), std::string::npos);
+  EXPECT_TRUE(holds(faultsOf("defaults: {a: }\nchain: []"), {"defaults: unknown key"}));
+  EXPECT_TRUE(holds(faultsOf("defaults: &unused {a: 1}\nchain: []"), {"defaults: unknown key"}));
+  EXPECT_TRUE(holds(faultsOf("tip: {<<: 3}\nchain: []"), {"tip: << must be a mapping, or a list of mappings"}));
+  EXPECT_TRUE(holds(faultsOf("tip: {<<: {}, <<: {}}\nchain: []"), {"tip.<<: is given more than once"}));
+  // What refers to itself comes to an end, as does what doubles with every line.
+  EXPECT_TRUE(holds(faultsOf("tip: &t {<<: *t, mass_kg: 0.01, colour: 1}\nchain: []"), {"tip.colour: unknown key"}));
+  std::string doubling = "a0: &a0 {mass_kg: 0.01}\n";
+  for (int i = 1; i <= 64; ++i) {
+    const std::string name = "a" + std::to_string(i), from = "*a" + std::to_string(i - 1);
+    doubling += name + ": &" + name + " {<<: [" + from + ", " + from + "]}\n";
+  }
+  EXPECT_EQ(faultsOf(doubling + "tip: {<<: *a64}\n" + chainOf("  - segment: " + kSegment)), "none");
 }
 
 TEST(SceneFile, SaysWhichFileCannotBeRead) {
