@@ -165,8 +165,15 @@ BestReadings bestReadings(const Samples& samples, const std::optional<Matrix3>& 
   BestReadings best;
   best.error = errors.front().second;
   for (const auto& tried : errors) best.error = std::min(best.error, tried.second);
-  for (const auto& [reading, error] : errors)
-    if (error < kAlike * best.error + radians(0.2)) best.readings.push_back(reading);
+  std::vector<double> kept;
+  for (const auto& [reading, of_reading] : errors) {
+    const double error = of_reading;
+    // Readings that differ by a constant rotation alone have the same error: each of them is right.
+    const bool known = std::any_of(kept.begin(), kept.end(), [&](double other) { return std::abs(other - error) < 1e-9; });
+    if (known || error > kAlike * best.error + radians(0.2)) continue;
+    best.readings.push_back(reading);
+    kept.push_back(error);
+  }
   return best;
 }
 
@@ -179,7 +186,8 @@ std::string PoseReading::text() const {
   if (order != Order::kAsGiven) parts.push_back(order == Order::kXyzw ? "read as x, y, z, w" : "read as w, x, y, z");
   const std::string others[] = {"qy and qz", "qx and qz", "qx and qy"};
   if (mirrored_rotation >= 0 && !left_handed)
-    parts.push_back("read with " + (inverse ? std::string("q") + kAxes[mirrored_rotation] : others[mirrored_rotation]) + " negated");
+    parts.push_back("read with " + (inverse ? std::string("q") + kAxes[mirrored_rotation] : others[mirrored_rotation]) +
+                    " negated");
   else if (inverse) parts.push_back("inverted (the tracker as seen from the sensor was given)");
   if (mirrored_position >= 0 && !left_handed)
     parts.push_back(std::string("taken with ") + kAxes[mirrored_position] + " of the positions negated");

@@ -15,7 +15,8 @@ struct PositionFit {
   double weakest_sensitivity = 0.0;  // these as in RegistrationFit
 };
 
-// start_from_orientations: try a start from the orientations, too, and keep what fits better, or about as well. At least 3 samples, finite.
+// start_from_orientations: try a start from the orientations, too, and take it unless it fits clearly worse. At least 3
+// samples, all finite.
 PositionFit fitPositions(const std::vector<Pose>& X_BT, const std::vector<Pose>& X_AS, bool start_from_orientations);
 
 // Rotation R with the largest trace(R^T M): polar factor of M, reflections excluded.

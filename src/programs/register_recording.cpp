@@ -91,14 +91,15 @@ int main(int argc, char** argv) {
       return CalibrationRecording(withTrackerDelay(recording, delay), choice, LoadedSamples::kIgnore);
     };
     PosePairs pairs = posePairs(scene, channels, chosen(tracker_delay), fit_options.model);
-    OrientationCheck check = checkOrientations(pairs.X_BT, pairs.X_AS, recording.measures);
+    OrientationCheck check;
+    if (pairs.X_BT.size() >= 3) check = checkOrientations(pairs.X_BT, pairs.X_AS, recording.measures);
     std::string note = check.text().empty() ? "" : check.text() + "\n";
     if (fix_orientation && check.readings.size() == 1) {
       const PoseReading reading = check.readings.front();
       recording = apply(reading, std::move(recording));
       pairs = posePairs(scene, channels, chosen(tracker_delay), fit_options.model);
       check = checkOrientations(pairs.X_BT, pairs.X_AS, check.measures);
-      note += "--fix-orientation: what follows holds for poses " + reading.text() + ", which the node must get, too\n";
+      note += "--fix-orientation: holds for poses " + reading.text() + "; the node needs the same: mend the driver\n";
       if (check.wrong()) note += check.text() + "\n";
     } else if (check.readings.size() == 1) {
       note += "(--fix-orientation applies it)\n";
