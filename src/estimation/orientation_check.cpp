@@ -284,6 +284,12 @@ OrientationCheck checkOrientations(const std::vector<Pose>& X_BT, const std::vec
     check.unexplained = told.has_value();
     if (told) check.reason += ", but was told to be measured";
     else check.measures = measures;
+    if (check.measures == TrackerMeasures::kPosition) {  // then positions alone say whether they are mirrored
+      const OrientationCheck of_positions = checkOrientations(X_BT, X_AS, TrackerMeasures::kPosition);
+      check.readings = of_positions.readings;
+      check.position_as_read = of_positions.position_as_read;
+      check.rotation_as_given = check.rotation_as_read = 0.0;
+    }
     return check;
   };
   constexpr double kConstant = 0.2;

@@ -126,11 +126,14 @@ int main(int argc, char** argv) {
       note += check.measures == TrackerMeasures::kPosition ? "the sensor's rotation" : "the sensor's turn about its z axis";
       note += " is not measured, and zero in the file\n";
     }
-    if (check.wrong()) note += "NOT determined: poses are misread, or told to measure what they do not\n";
+    if (check.wrong()) {
+      result.recordings[0].determined = false;
+      result.recordings[0].verdict = "NOT determined: poses are misread, or told to measure what they do not; see below";
+    }
     const std::string report = reportText(result) + (fit_delay ? found.text() + "\n" : "") + note;
     std::cout << report;
     saveRegistrationFile(output_path, registration,
                          "register_recording: " + recording_path + " with scene " + scene_path + "\n" + report);
-    return result.recordings[0].determined && found.determined && !check.wrong() ? kExitOk : kExitPartly;
+    return result.recordings[0].determined && found.determined ? kExitOk : kExitPartly;
   });
 }

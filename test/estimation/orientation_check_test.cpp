@@ -115,10 +115,15 @@ TEST(OrientationCheck, AMotionInOnePlaneAccusesNobody) {
 
 TEST(OrientationCheck, MirroredPositionsAloneAreNamed) {
   const Simulated robot(3, 0.05);
-  const std::vector<Pose> X_AS = spoilt({Order::kAsGiven, false, -1, 1}, robot.X_AS);
-  const std::string text = checkOrientations(robot.X_BT, X_AS, TrackerMeasures::kPosition).text();
-  EXPECT_NE(text.find("y of the positions negated"), std::string::npos) << text;
-  EXPECT_NE(text.find("channels are swapped"), std::string::npos) << text;
+  std::vector<Pose> X_AS = spoilt({Order::kAsGiven, false, -1, 1}, robot.X_AS);
+  for (Pose& X : X_AS) X.R.setIdentity();
+  for (const auto& measures : {std::optional<TrackerMeasures>(), std::optional(TrackerMeasures::kPosition)}) {
+    const OrientationCheck check = checkOrientations(robot.X_BT, X_AS, measures);
+    EXPECT_TRUE(check.wrong());
+    EXPECT_EQ(check.measures, TrackerMeasures::kPosition);
+    EXPECT_NE(check.text().find("y of the positions negated"), std::string::npos) << check.text();
+    EXPECT_NE(check.text().find("channels are swapped"), std::string::npos) << check.text();
+  }
 }
 
 TEST(OrientationCheck, FindsWhatIsNotMeasured) {
