@@ -25,20 +25,20 @@ LiveRegistration refused(LiveRegistration result, const std::string& fault) {
   return result;
 }
 
-RegistrationFit fitWithoutOutliers(std::vector<Pose>& X_BT, std::vector<Pose>& X_AS, int& outliers) {
-  RegistrationFit fit = fitRegistration(X_BT, X_AS);
-  const double limit = RegistrationBuffer::kOutlier * quantile(fit.residuals, 0.5);
+RegistrationFit fitWithoutOutliers(std::vector<Pose>& X_BT, std::vector<Pose>& X_AS,
+                                   std::optional<TrackerMeasures> measures, int& outliers) {
+  const std::vector<double> residuals = fitRegistration(X_BT, X_AS, measures).residuals;
+  const double limit = RegistrationBuffer::kOutlier * quantile(residuals, 0.5);
   size_t kept = 0;
-  for (size_t i = 0; i < fit.residuals.size(); ++i) {
-    if (fit.residuals[i] > limit) continue;
+  for (size_t i = 0; i < residuals.size(); ++i) {
+    if (residuals[i] > limit) continue;
     X_BT[kept] = X_BT[i];
     X_AS[kept++] = X_AS[i];
   }
-  outliers = static_cast<int>(fit.residuals.size() - kept);
-  if (outliers == 0) return fit;
+  outliers = static_cast<int>(residuals.size() - kept);
   X_BT.resize(kept);
   X_AS.resize(kept);
-  return fitRegistration(X_BT, X_AS);  // more than half are left: the median is below the limit
+  return fitRegistration(X_BT, X_AS, measures);  // more than half are left: the median is below the limit
 }
 
 }  // namespace
@@ -139,7 +139,7 @@ LiveRegistration RegistrationBuffer::fit(const RegistrationWindow& window) const
     else why += "; let the robot move for a while first, or ask for a longer duration";
     return refused(result, why);
   }
-  result.fit = fitWithoutOutliers(X_BT, X_AS, result.outliers);
+  result.fit = fitWithoutOutliers(X_BT, X_AS, window.measures, result.outliers);
   result.used -= result.outliers;
   return result;
 }
@@ -147,9 +147,12 @@ LiveRegistration RegistrationBuffer::fit(const RegistrationWindow& window) const
 std::string LiveRegistration::text() const {
   const auto angle = [](double value) { return fixedText(degrees(value), 2); };
   std::string text = std::to_string(used) + " samples over " + numberText(span) + " s, " + std::to_string(outliers) +
-                     " outliers left out\ntip error after registration: " + millimetreText(fit.position) +
-                     "\nrotation: mean " + angle(fit.rotation.mean) + ", RMS " + angle(fit.rotation.rms) + ", max " +
-                     angle(fit.rotation.max) + " deg\n";
+                     " outliers left out\ntip error after registration: " + millimetreText(fit.position) + "\n";
+  if (fit.rotation.count > 0)
+    text += (fit.measures == TrackerMeasures::kPose ? "rotation: mean " : "z axis: mean ") + angle(fit.rotation.mean) + ", RMS " +
+            angle(fit.rotation.rms) + ", max " + angle(fit.rotation.max) + " deg\n";
+  if (fit.orientations_fit && !fit.orientations.empty()) text += fit.orientations + "\n";
+  if (!fit.unmeasured().empty()) text += fit.unmeasured() + "\n";
   return text + (fit.determined() ? "determined by the motion" : "NOT determined: " + fit.advice());
 }
 

@@ -6,6 +6,7 @@
 // between the two messages around it, with the scene's creep.
 
 #include <deque>
+#include <optional>
 #include <string>
 
 #include "live_stiffness/compliance/stiffness_model.h"
@@ -19,6 +20,7 @@ struct RegistrationWindow {
   double duration = 60.0;          // of the newest past, s; positive
   bool quasi_static_only = false;  // leave out samples in and just after motion; see quasiStaticSamples()
   bool leave_out_contact = false;  // leave out samples that were marked as in contact
+  std::optional<TrackerMeasures> measures;  // none: found from the poses, and said
 };
 
 struct LiveRegistration {

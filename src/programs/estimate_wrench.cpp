@@ -8,7 +8,6 @@
 #include <locale>
 #include <sstream>
 
-#include "analysis/scene_description.h"
 #include "command_line.h"
 #include "force_sensor_options.h"
 #include "calibration/calibration.h"
@@ -16,9 +15,9 @@
 #include "estimation/tracker_delay.h"
 #include "live_stiffness/estimation/tip_wrench_estimator.h"
 #include "part_file.h"
-#include "live_stiffness/rod/scene_file.h"
 #include "recording_help.h"
 #include "recording_reader.h"
+#include "scene_doubts.h"
 
 namespace po = boost::program_options;
 using namespace live_stiffness;
@@ -106,8 +105,7 @@ int main(int argc, char** argv) {
                     [&](const po::variables_map& given) {
     reader.configure(given);
     const WrenchParameters parameters = wrenchParameters(reader.values());
-    const Scene scene = loadSceneFile(scene_path);
-    for (const std::string& doubt : doubtsAbout(scene)) std::cerr << scene_path << ": " << doubt << "\n";
+    const Scene scene = loadSceneWithDoubts(scene_path);
     const Recording recorded = reader.load(recording_paths, &scene);
     const ForceSensorMount mount = force_sensor.mountFor(recorded.wrench_frame, reader.parameters().frames);
     const Registration registration = loadRegistrationFile(registration_path);

@@ -5,11 +5,13 @@
 #include <boost/program_options.hpp>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "csv_table.h"
 #include "estimation/input_parameters.h"
+#include "estimation/pressure_levels.h"
 #include "input_options.h"
 #include "live_stiffness/checks.h"
 #include "live_stiffness/estimation/recording.h"
@@ -84,7 +86,7 @@ class RecordingReader {
   }
 
  private:
-  Recording read(const std::vector<std::string>& paths, [[maybe_unused]] const Scene* scene) const {
+  Recording read(const std::vector<std::string>& paths, const Scene* scene) const {
     const std::string& path = paths.front();
 #ifdef LIVE_STIFFNESS_WITH_BAGS
     if (isBag(path)) return loadRecordedBags(paths, topics_, parameters_, scene);
@@ -93,7 +95,7 @@ class RecordingReader {
       throw ConfigurationError("recording " + path, {"this build reads no bags: build it with ROS (-DWITH_ROS=ON)"});
 #endif
     if (paths.size() > 1) throw ConfigurationError("recording " + path, {"only bags can be parts of one recording"});
-    return loadRecording(path);
+    return loadRecording(path, scene != nullptr ? std::optional(fullRange(*scene)) : std::nullopt);
   }
 
   InputOptions options_;

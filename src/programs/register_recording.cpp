@@ -3,16 +3,18 @@
 
 #include <iostream>
 
-#include "analysis/scene_description.h"
 #include "command_line.h"
 #include "calibration/calibration.h"
 #include "calibration/calibration_report.h"
-#include "live_stiffness/checks.h"
+#include "estimation/creep.h"
+#include "estimation/orientation_check.h"
 #include "estimation/tracker_delay.h"
-#include "live_stiffness/rod/scene_file.h"
+#include "live_stiffness/checks.h"
+#include "live_stiffness/compliance/stiffness_model.h"
 #include "recording_help.h"
 #include "recording_reader.h"
 #include "sample_options.h"
+#include "scene_doubts.h"
 
 namespace po = boost::program_options;
 using namespace live_stiffness;
@@ -20,9 +22,34 @@ using namespace live_stiffness;
 namespace {
 
 const char* const kHelp =
-    "register_recording SCENE.yaml RECORDING.csv|.bag OUT.yaml [--samples all|quasi_static] [--fit-delay]\n\n"
+    "register_recording SCENE.yaml RECORDING.csv|.bag... OUT.yaml [--samples all|quasi_static] [--fit-delay]\n"
+    "                   [--fix-orientation]\n\n"
     "Fits base in tracker and sensor on tip, and on demand how late the tracker is, and writes them for the node\n"
-    "(`registration`). Samples under contact are left out. Exit status 1: written, but these data do not determine it.\n\n";
+    "(`registration`). Samples under contact are left out. Orientations are tried against the positions: those that are not\n"
+    "measured are not used, and a misread or mirrored one is named. Exit status 1: written, but these data do not determine\n"
+    "it, or the orientations are misread.\n\n";
+
+// Predicted tips and measured poses of the samples of the fit that the tracker saw anew, as far as the model has a solution.
+struct PosePairs {
+  std::vector<Pose> X_BT, X_AS;
+};
+PosePairs posePairs(const Scene& scene, const ChannelMap& channels, const CalibrationRecording& data,
+                    const ModelOptions& options) {
+  const StiffnessModel model(scene, options);
+  StiffnessWorkspace workspace = model.makeWorkspace();
+  SceneCreep creep(scene);
+  PosePairs pairs;
+  for (size_t i = 0; i < data.used.size(); ++i) {
+    const RecordedSample& sample = data.recording.samples[i];
+    const Pressures& effective = creep.update(data.channels[i], sample.time);
+    if (!data.used[i] || sample.unchanged_for > 0.0) continue;
+    const StiffnessSolution solution = model.solve(channels.expand(effective), Wrench::Zero(), workspace);
+    if (!solution.status.ok()) continue;
+    pairs.X_BT.push_back(solution.X_BT);
+    pairs.X_AS.push_back(sample.tipPose());
+  }
+  return pairs;
+}
 
 // What delay a registration still leaves, over all samples that nothing touches, in motion or not.
 TrackerDelay delayLeft(const Recording& recording, const RecordingFit& fit) {
@@ -35,38 +62,61 @@ TrackerDelay delayLeft(const Recording& recording, const RecordingFit& fit) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string scene_path, recording_path, output_path, samples = "all";
-  bool no_orientation = false, fit_delay = false;
+  std::string scene_path, output_path, samples = "all";
+  std::vector<std::string> recordings;
+  bool no_orientation = false, fit_delay = false, fix_orientation = false;
   double tracker_delay = 0.0;
   RecordingReader reader;
   po::options_description options = helpOption();
   options.add_options()
     ("scene", po::value(&scene_path)->required(), "scene of the recorded robot")
-    ("recording", po::value(&recording_path)->required(), "CSV recording, or a bag")
-    ("output", po::value(&output_path)->required(), "registration file to write")
+    ("recording", po::value(&recordings)->required(), "CSV recording, or the bags of one")
+    ("output", po::value(&output_path), "registration file to write, if it is not the last of all")
     ("samples", po::value(&samples)->default_value(samples), "all (in motion too), or quasi_static (at rest only)")
+    ("fix-orientation", po::bool_switch(&fix_orientation), "read misread or mirrored poses as the data say, and go on")
     ("no-orientation", po::bool_switch(&no_orientation), "use positions only; the sensor's rotation is then their mean")
     ("tracker-delay-s", po::value(&tracker_delay)->default_value(0.0), "delay of the tracker relative to the pressures")
     ("fit-delay", po::bool_switch(&fit_delay), "fit that delay too, to the samples in motion");
   reader.addOptionsTo(options);
-  return runProgram({argv, argv + argc}, kHelp + kRecordingHelp, options, {{"scene", 1}, {"recording", 1}, {"output", 1}},
+  return runProgram({argv, argv + argc}, kHelp + kRecordingHelp, options, {{"scene", 1}, {"recording", -1}},
                     [&](const po::variables_map& given) {
     reader.configure(given);
     FaultList faults("options");
+    if (output_path.empty() && recordings.size() > 1) {
+      output_path = recordings.back();
+      recordings.pop_back();
+    }
+    if (output_path.empty()) faults.add("OUT.yaml is missing: must be the registration file to write");
     faults.check("tracker-delay-s", tracker_delay, {-Registration::kLargestDelay, Registration::kLargestDelay});
     const SampleChoice choice = sampleChoice(samples, faults);
     faults.throwIfAny();
     CalibrationOptions fit_options;
     fit_options.model.stepping = Stepping::kContinuous;
     if (no_orientation) fit_options.rotation_sigma = 0.0;
-    const Scene scene = loadSceneFile(scene_path);
-    for (const std::string& doubt : doubtsAbout(scene)) std::cerr << scene_path << ": " << doubt << "\n";
-    const Recording recording = reader.load(recording_path, &scene);
+    const Scene scene = loadSceneWithDoubts(scene_path);
+    Recording recording = reader.load(recordings, &scene);
     const ChannelMap channels = reader.channels(recording, scene);
-    const auto registered = [&](double delay) {
-      const CalibrationRecording data(withTrackerDelay(recording, delay), choice, LoadedSamples::kIgnore);
-      return calibrate(scene, channels, {}, {data}, {}, fit_options);
+    const auto chosen = [&](double delay) {
+      return CalibrationRecording(withTrackerDelay(recording, delay), choice, LoadedSamples::kIgnore);
     };
+    PosePairs pairs = posePairs(scene, channels, chosen(tracker_delay), fit_options.model);
+    OrientationCheck check;
+    if (pairs.X_BT.size() >= 3) check = checkOrientations(pairs.X_BT, pairs.X_AS, recording.measures);
+    std::string note = check.text().empty() ? "" : check.text() + "\n";
+    if (fix_orientation && check.readings.size() == 1) {
+      const PoseReading reading = check.readings.front();
+      recording = apply(reading, std::move(recording));
+      pairs = posePairs(scene, channels, chosen(tracker_delay), fit_options.model);
+      check = checkOrientations(pairs.X_BT, pairs.X_AS, check.measures);
+      note += "--fix-orientation: holds for poses " + reading.text() + "; the node needs the same: mend the driver\n";
+      if (check.wrong()) note += check.text() + "\n";
+    } else if (check.readings.size() == 1) {
+      note += "(--fix-orientation applies it)\n";
+    }
+    recording.measures = check.measures;
+    // Orientations that are wrong must not spoil the positions; single axes have no part in the fit.
+    if (check.wrong() || check.measures != TrackerMeasures::kPose) fit_options.rotation_sigma = 0.0;
+    const auto registered = [&](double delay) { return calibrate(scene, channels, {}, {chosen(delay)}, {}, fit_options); };
     CalibrationResult result = registered(tracker_delay);
     TrackerDelay found;
     found.determined = true;
@@ -78,12 +128,22 @@ int main(int argc, char** argv) {
       found.delay = tracker_delay += found.delay;
       result = registered(tracker_delay);
     }
-    const std::string report = reportText(result) + (fit_delay ? found.text() + "\n" : "");
-    std::cout << report;
     Registration registration = result.recordings[0].registration;
     registration.tracker_delay = tracker_delay;
+    if (check.measures != TrackerMeasures::kPose) {
+      registration.X_TS.R = sensorRotation(registration.X_AB.R, pairs.X_BT, pairs.X_AS, check.measures);
+      note += check.measures == TrackerMeasures::kPosition ? "the sensor's rotation" : "the sensor's turn about its z axis";
+      note += " is not measured, and zero in the file; tell the node: tracker_measures: " +
+              trackerMeasuresName(check.measures) + "\n";
+    }
+    if (check.wrong()) {
+      result.recordings[0].determined = false;
+      result.recordings[0].verdict = "NOT determined: poses are misread, or told to measure what they do not; see below";
+    }
+    const std::string report = reportText(result) + (fit_delay ? found.text() + "\n" : "") + note;
+    std::cout << report;
     saveRegistrationFile(output_path, registration,
-                         "register_recording: " + recording_path + " with scene " + scene_path + "\n" + report);
+                         "register_recording: " + recording.name + " with scene " + scene_path + "\n" + report);
     return result.recordings[0].determined && found.determined ? kExitOk : kExitPartly;
   });
 }

@@ -66,6 +66,7 @@ bool RegistrationService::answer(Register::Request& request, Register::Response&
   window.duration = request.duration == 0.0 ? parameters_.registration_buffer : request.duration;
   window.quasi_static_only = request.quasi_static_only;
   window.leave_out_contact = request.leave_out_contact;
+  if (!parameters_.tracker_measures.empty()) window.measures = trackerMeasuresNamed(parameters_.tracker_measures);
   std::shared_ptr<const StiffnessModel> model;  // kept while it is in use
   std::unique_ptr<const RegistrationBuffer> past;
   {

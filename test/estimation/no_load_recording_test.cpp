@@ -77,6 +77,7 @@ TEST(LoadRecording, UnloadedQuasiStaticTipErrorStaysBelowTwoMillimetres) {
   const Replay replayed = replay(*path);
   EXPECT_EQ(replayed.failed, 0);
   const RegistrationFit fit = registered(replayed, unloadedQuasiStatic(replayed.recording));
+  EXPECT_TRUE(fit.orientations_fit) << fit.orientations;
   std::vector<double> all;  // pushes included, of which the pressures know nothing
   for (size_t i = 0; i < replayed.X_BT.size(); ++i) {
     const Pose X_AS = fit.registration.sensorPose(replayed.X_BT[i]);

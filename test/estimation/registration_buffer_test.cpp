@@ -187,6 +187,31 @@ TEST_F(RegistrationBufferTest, ARobotThatDoesNotMoveDeterminesNothing) {
   EXPECT_NE(result.text().find("NOT determined"), std::string::npos);
 }
 
+TEST_F(RegistrationBufferTest, OrientationsThatAreNotMeasuredAreFoundAndSaid) {
+  const SimulatedRecording simulated = exact();
+  Recording recording = simulated.record(scene());
+  for (RecordedSample& sample : recording.samples) sample.tip_orientation.setIdentity();
+  feed(buffer_, recording);
+  RegistrationWindow window;
+  const LiveRegistration found = buffer_.fit(window);
+  ASSERT_EQ(found.fault, "");
+  EXPECT_TRUE(found.fit.determined()) << found.text();
+  EXPECT_EQ(found.fit.measures, TrackerMeasures::kPosition);
+  EXPECT_NE(found.text().find("rotation is not measured"), std::string::npos) << found.text();
+  EXPECT_LT((found.fit.registration.X_TS.p - simulated.registration().X_TS.p).norm(), 1e-5);
+  window.measures = TrackerMeasures::kPose;
+  EXPECT_NE(buffer_.fit(window).text().find("NOT determined: the orientation hardly changes"), std::string::npos);
+}
+
+TEST_F(RegistrationBufferTest, AnInvertedOrientationIsNamedAndNotDetermined) {
+  Recording recording = exact().record(scene());
+  for (RecordedSample& sample : recording.samples) sample.tip_orientation = sample.tip_orientation.conjugate();
+  feed(buffer_, recording);
+  const LiveRegistration result = buffer_.fit({});
+  EXPECT_FALSE(result.fit.determined());
+  EXPECT_NE(result.text().find("NOT determined: the orientations fit when inverted"), std::string::npos) << result.text();
+}
+
 TEST_F(RegistrationBufferTest, ATrackerThatRepeatsItselfCountsOnce) {
   for (int k = 0; k < 100; ++k) {
     buffer_.addPressures(Pressures::Zero(6), 0.1 * k);

@@ -170,6 +170,43 @@ TEST(RegistrationFit, FindsTheBaseFromPositionsAlone) {
   }
 }
 
+TEST(RegistrationFit, UsesOfOrientationsWhatIsMeasured) {
+  std::mt19937_64 random(13);
+  std::uniform_real_distribution<double> uniform(-kPi, kPi);
+  const std::vector<Pose> X_BT = bends(3);
+  Registration truth = someRegistration(random);
+  truth.X_TS.p *= 0.3;
+  std::vector<Pose> X_AS = measured(truth, X_BT);
+  for (Pose& X : X_AS) X.R *= expSo3(uniform(random) * Vector3::UnitZ());  // a coil with five degrees of freedom
+  for (const auto& measures : {std::optional<TrackerMeasures>(), std::optional(TrackerMeasures::kPositionAndAxis)}) {
+    const RegistrationFit fit = fitRegistration(X_BT, X_AS, measures);
+    EXPECT_EQ(fit.measures, TrackerMeasures::kPositionAndAxis);
+    EXPECT_TRUE(fit.determined()) << fit.advice();
+    EXPECT_LT((fit.registration.X_AB.R - truth.X_AB.R).norm(), 1e-9);
+    EXPECT_LT((fit.registration.X_TS.R.col(2) - truth.X_TS.R.col(2)).norm(), 1e-9);
+    EXPECT_LT(fit.rotation.max, 1e-7);
+    EXPECT_NE(fit.unmeasured().find("about its z axis"), std::string::npos);
+  }
+  const RegistrationFit position = fitRegistration(X_BT, X_AS, TrackerMeasures::kPosition);
+  EXPECT_TRUE(position.determined()) << position.advice();
+  EXPECT_LT((position.registration.X_TS.p - truth.X_TS.p).norm(), 1e-9);
+  EXPECT_EQ(position.registration.X_TS.R, Matrix3::Identity());
+  EXPECT_EQ(position.rotation.count, 0);
+}
+
+TEST(RegistrationFit, MisreadOrientationsAreNotDeterminedAndNamed) {
+  std::mt19937_64 random(14);
+  const std::vector<Pose> X_BT = bends(3);
+  std::vector<Pose> X_AS = measured(someRegistration(random), X_BT);
+  for (Pose& X : X_AS) {
+    const Eigen::Quaterniond q(X.R);
+    X.R = Eigen::Quaterniond(q.x(), q.y(), q.z(), q.w()).toRotationMatrix();
+  }
+  const RegistrationFit fit = fitRegistration(X_BT, X_AS);
+  EXPECT_FALSE(fit.determined());
+  EXPECT_NE(fit.advice().find("fit when read as x, y, z, w: 0.0 deg instead of"), std::string::npos) << fit.advice();
+}
+
 TEST(RegistrationFit, RefusesUnusableSamplesWithAllFaults) {
   std::vector<Pose> X_BT(2), X_AS(3);
   X_AS[1].p.x() = std::nan("");
