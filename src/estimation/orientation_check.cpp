@@ -1,6 +1,6 @@
 #include "estimation/orientation_check.h"
 
-#include <Eigen/SVD>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -72,6 +72,11 @@ std::vector<Vector3> turns(const std::vector<Pose>& poses, double& mean_length) 
   return vectors;
 }
 
+double sumOfSingularValues(const Matrix3& M) {  // of the square, as gcc suspects Eigen's own to be uninitialised
+  const Eigen::SelfAdjointEigenSolver<Matrix3> square(M.transpose() * M, Eigen::EigenvaluesOnly);
+  return square.eigenvalues().cwiseMax(0.0).cwiseSqrt().sum();
+}
+
 // How measured turns u follow predicted ones R v, without regard to their size.
 struct Following {
   double as_given = 0.0;   // correlation, -1 to 1
@@ -86,7 +91,7 @@ Following following(const Matrix3& R, const std::vector<Vector3>& v, const std::
     squares_v += v[i].squaredNorm();
   }
   const double scale = std::sqrt(squares_u * squares_v) + 1e-300;
-  return {products.trace() / scale, Eigen::JacobiSVD<Matrix3>(products).singularValues().sum() / scale};
+  return {products.trace() / scale, sumOfSingularValues(products) / scale};
 }
 
 // Whether the turn of a measured orientation about its z axis means nothing: it jumps from sample to sample, is far off, or

@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
     std::vector<std::string> unknown;
     const NodeParameters parameters =
         readNodeParameters(parameter_options.values(given, InputOptions::file(given)), "options", "", unknown);
-    for (const std::string& doubt : doubtsAbout(parameters.scene)) std::cerr << "scene: " << doubt << "\n";
+    for (const std::string& doubt : doubtsAbout(parameters.scene)) std::cerr << "warning: scene: " << doubt << "\n";
     if (out.empty()) out = std::filesystem::path(bags.front()).replace_extension(".estimates.bag").string();
     std::unique_ptr<ProgressBar> bar;
     const ReplayReport report = replayBags(bags, out, parameters, topics, [&](long done, long total) {

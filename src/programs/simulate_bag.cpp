@@ -4,6 +4,7 @@
 #include "rig/rig_model.h"
 #include "bags/bag_reader.h"
 #include "bags/output_bag.h"
+#include "ros/conversions.h"
 #include "parameter_options.h"
 #include "progress_bar.h"
 #include "scene_doubts.h"

@@ -10,6 +10,7 @@
 #include <locale>
 #include <sstream>
 
+#include "analysis/scene_description.h"
 #include "live_stiffness/rod/scene_file.h"
 #include "parameter_reader.h"
 
@@ -100,6 +101,7 @@ NodeParameters loadNodeParameters(const ros::NodeHandle& private_node) {
   const NodeParameters parameters = readNodeParameters(
       privateParameters(private_node), "parameters of " + private_node.getNamespace(), "~", unknown);
   warnOfUnknown(unknown, "stiffness_node");
+  for (const std::string& doubt : doubtsAbout(parameters.scene)) ROS_WARN("scene: %s", doubt.c_str());
   return parameters;
 }
 
