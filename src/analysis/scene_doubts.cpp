@@ -24,26 +24,25 @@ constexpr double kStretched = 0.5;          // strain by what hangs or stands on
 class Doubts {
  public:
   void add(const std::string& where, const std::string& what) {
-    const auto same = std::find_if(doubts_.begin(), doubts_.end(), [&](const Doubt& doubt) { return doubt.what == what; });
-    if (same != doubts_.end()) ++same->more;
-    else doubts_.push_back({where, what, 0});
+    const auto same = std::find(whats_.begin(), whats_.end(), what);
+    if (same == whats_.end()) whats_.push_back(what), places_.push_back({where});
+    else places_[same - whats_.begin()].push_back(where);
   }
   void add(const std::string& where, const std::string& key, double value, const std::string& why) {
     add(where, key + " = " + numberText(value) + ": " + why);
   }
   std::vector<std::string> texts() const {
     std::vector<std::string> texts;
-    for (const Doubt& doubt : doubts_)
-      texts.push_back(doubt.where + (doubt.more > 0 ? " and " + std::to_string(doubt.more) + " more" : "") + ": " + doubt.what);
+    for (size_t i = 0; i < whats_.size(); ++i) {
+      const size_t more = places_[i].size() - 1;
+      texts.push_back(places_[i].front() + (more > 0 ? " and " + std::to_string(more) + " more" : "") + ": " + whats_[i]);
+    }
     return texts;
   }
 
  private:
-  struct Doubt {
-    std::string where, what;
-    int more;  // places
-  };
-  std::vector<Doubt> doubts_;
+  std::vector<std::string> whats_;
+  std::vector<std::vector<std::string>> places_;  // of each
 };
 
 void checkLength(const std::string& where, double length, Doubts& doubts) {
