@@ -149,7 +149,8 @@ std::string chamberText(Solver& solver, const StiffnessSolution& rest, int chamb
   if (!text.empty()) text += "at " + numberText(pressure / kBar) + " bar ";
   const Vector3 moved = bent.X_BT.p - rest.X_BT.p;
   const double turn = std::acos(std::clamp(bent.X_BT.R.col(2).dot(rest.X_BT.R.col(2)), -1.0, 1.0));
-  if (turn < radians(0.05)) text += "does not bend; the tip moves by " + fixedText(1e3 * moved.norm(), 2) + " mm";
+  const bool bends = turn > radians(0.05) || moved.head<2>().norm() > 1e-4 * solver.model.scene().length();
+  if (!bends) text += "does not bend; the tip moves by " + fixedText(1e3 * moved.norm(), 2) + " mm";
   else text += "bends by " + degreesText(turn) + " towards " + directionText(moved.x(), moved.y()) + "; the tip moves by " +
                fixedText(1e3 * moved.norm(), 2) + " mm";
   return text + " to " + millimetres(bent.X_BT.p);

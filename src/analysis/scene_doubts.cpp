@@ -20,16 +20,29 @@ constexpr double kFilled = 0.5;             // chambers reach beyond this share 
 constexpr double kThinnest = 0.05;          // wall outside the chambers, in their radii
 constexpr double kStretched = 0.5;          // strain by what hangs or stands on a segment
 
+// What is doubtful in the same way at several places is said once.
 class Doubts {
  public:
-  void add(const std::string& where, const std::string& what) { texts_.push_back(where + ": " + what); }
+  void add(const std::string& where, const std::string& what) {
+    const auto same = std::find(whats_.begin(), whats_.end(), what);
+    if (same == whats_.end()) whats_.push_back(what), places_.push_back({where});
+    else places_[same - whats_.begin()].push_back(where);
+  }
   void add(const std::string& where, const std::string& key, double value, const std::string& why) {
     add(where, key + " = " + numberText(value) + ": " + why);
   }
-  std::vector<std::string> take() { return std::move(texts_); }
+  std::vector<std::string> texts() const {
+    std::vector<std::string> texts;
+    for (size_t i = 0; i < whats_.size(); ++i) {
+      const size_t more = places_[i].size() - 1;
+      texts.push_back(places_[i].front() + (more > 0 ? " and " + std::to_string(more) + " more" : "") + ": " + whats_[i]);
+    }
+    return texts;
+  }
 
  private:
-  std::vector<std::string> texts_;
+  std::vector<std::string> whats_;
+  std::vector<std::vector<std::string>> places_;  // of each
 };
 
 void checkLength(const std::string& where, double length, Doubts& doubts) {
@@ -172,7 +185,7 @@ std::vector<std::string> doubtsAbout(const Scene& scene) {
   if (offset > std::max(1.0, 3.0 * scene.length()))
     doubts.add("tip", "offset_m: " + numberText(offset) + " m from the end of the arm, which is " + numberText(scene.length()) +
                " m long; if it is in mm, divide it by 1000");
-  std::vector<std::string> texts = doubts.take();
+  std::vector<std::string> texts = doubts.texts();
   if (!texts.empty() || !has_weight) return texts;
   // Nothing is odd alone; is all of it together?
   double beyond = scene.tip_mass;

@@ -91,6 +91,14 @@ TEST(SceneDoubts, NameTheUsualSlips) {
   }
 }
 
+TEST(SceneDoubts, AreSaidOnceWhereSegmentsShareThem) {
+  Scene scene = paperScene(2);
+  for (int k : {0, 1}) segmentOf(scene, k).section.youngs_modulus = segmentOf(scene, k).section.shear_modulus = 90.0;
+  const std::vector<std::string> doubts = doubtsAbout(scene);
+  ASSERT_EQ(doubts.size(), 1u);
+  EXPECT_EQ(doubts[0].rfind("segment s1 and 1 more: youngs_modulus_pa = 90: ", 0), 0u) << doubts[0];
+}
+
 TEST(SceneDoubts, AreNoneWhereItMayWellBeMeant) {
   EXPECT_EQ(doubtsWith({{"-9.81", "9.81"}}), "");                        // hanging
   EXPECT_EQ(doubtsWith({{"-9.81", "-1.62"}}), "");                       // on the Moon

@@ -1,5 +1,6 @@
 // Scene files: refused with a ConfigurationError, or a scene that can be solved without ever giving NaN.
 
+#include "analysis/scene_description.h"
 #include "fuzz_target.h"
 #include "live_stiffness/checks.h"
 #include "live_stiffness/compliance/stiffness_model.h"
@@ -33,6 +34,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size) {
     return 0;
   }
   require(scene.segmentCount() > 0, "a scene has a segment");
+  doubtsAbout(scene);  // never throws
   if (scene.segmentCount() > kMostSegments) return 0;
   ModelOptions options;
   options.accuracy = 1e-4;

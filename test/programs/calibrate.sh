@@ -16,6 +16,12 @@ grep -q '^# Calibrated: calibrate ' "$dir/out.yaml" || fail "the scene does not 
 "$calibrate" "$dir/out.yaml" --list | grep -q '^youngs_modulus_pa' || fail "the calibrated scene cannot be read"
 awk -F, 'NR == 2 {exit !($2 < 0.05)}' "$dir/rows.csv" || fail "the row is not fitted"
 
+# Names that need quotes in YAML are in the scene that is written, and it loads.
+sed 's/name: s1/name: "a #1: [b"/' "$one" >"$dir/names.yaml"
+"$calibrate" "$dir/names.yaml" --compliance-table "$dir/table.csv" -p youngs_modulus_pa -o "$dir/out.yaml" -q >"$dir/report"
+"$calibrate" "$dir/out.yaml" --list >"$dir/list" || fail "a scene with names in quotes cannot be read"
+grep -q 'name: "a #1: \[b"' "$dir/out.yaml" || fail "the name of the segment is another one: $(grep name: "$dir/out.yaml")"
+
 # A recording at rest does not determine the registration: written, with exit status 1 and the reason.
 arm=$source/config/scenes/stiff_flop_recorded.yaml
 { echo time_s,pressure_1_pa,pressure_2_pa,pressure_3_pa,tip_x_m,tip_y_m,tip_z_m,tip_qw,tip_qx,tip_qy,tip_qz
