@@ -23,6 +23,7 @@ struct RecordedSample {
   double time = 0.0;   // s
   Pressures pressures;  // one per channel, Pa; absolute or gauge as Recording::absolute says
   std::optional<Vector3> base_position;  // p_A of the base sensor, m
+  std::optional<Eigen::Quaterniond> base_orientation;  // q_A of the base sensor
   Vector3 tip_position = Vector3::Zero();  // p_AS of the tip sensor, m
   // Orientation q_AS of the tip sensor, unit norm. Of the two signs of one rotation it has the one that is nearer to the
   // previous sample, so that the components are continuous in time.
