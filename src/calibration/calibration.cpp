@@ -66,6 +66,7 @@ void describeRecording(CalibrationProblem& problem, const CalibrationProblem::So
     Twist error = errorOf(fit.registration, predictions[i], data.recording.samples[i], evaluator.measures());
     if (!solved[i]) error.setConstant(kNaN);
     fit.without_equilibrium += !solved[i];
+    fit.repeated += data.recording.samples[i].unchanged_for > 0.0;
     fit.position_error.push_back(linear(error).norm());
     fit.rotation_error.push_back(evaluator.measures() == TrackerMeasures::kPosition ? kNaN : angular(error).norm());
     fit.position_residual.push_back(fit.registration.X_AB.R.transpose() * linear(error));

@@ -62,6 +62,7 @@ struct RecordingFit {
   Registration registration;
   bool determined = false;                 // the data determine the registration: the standard errors in the verdict are small
   std::string verdict;                     // the same as text, with advice
+  int repeated = 0;                        // samples that repeat the pose before
   int without_equilibrium = 0;             // samples that have none at the solution: left out of all errors
   bool relative_to_base = false;           // the registration is that of the base sensor's axes, not of the tracker's
   std::vector<double> position_error;      // |predicted - measured| of the sensor, every sample, m; NaN without equilibrium

@@ -240,7 +240,11 @@ CalibrationProblem::Solution CalibrationProblem::solve(const CalibrationUnknowns
   std::vector<double> residuals;
   ceres::CRSMatrix sparse;
   double cost = 0.0;
-  if (!problem.Evaluate(evaluate, &cost, &residuals, nullptr, &sparse)) return solution;
+  if (!problem.Evaluate(evaluate, &cost, &residuals, nullptr, &sparse)) {  // then nothing is known of the parameters
+    solution.jacobian =
+        Eigen::MatrixXd::Zero(1, unknowns.x.size() + (options_.given ? 0 : kRegistrationSize * unknowns.registrations.size()));
+    return solution;
+  }
   solution.residuals = Eigen::Map<Eigen::VectorXd>(residuals.data(), static_cast<long>(residuals.size()));
   solution.jacobian = Eigen::MatrixXd::Zero(sparse.num_rows, sparse.num_cols);
   for (int row = 0; row < sparse.num_rows; ++row)

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "command_line.h"
+#include "calibration/base_sensor.h"
 #include "calibration/calibration.h"
 #include "calibration/calibration_report.h"
 #include "live_stiffness/checks.h"
@@ -21,11 +22,16 @@ const char* const kHelp =
     "Fits base in tracker and sensor on tip, and on demand how late the tracker is, and writes them for the node\n"
     "(`registration`). Samples under contact are left out. Exit status 1: written, but these data do not determine it.\n\n";
 
-// What delay a registration still leaves, over all samples that nothing touches, in motion or not.
-TrackerDelay delayLeft(const Recording& recording, const RecordingFit& fit) {
+// What delay a registration still leaves, over all samples with an equilibrium that nothing touches, in motion or not.
+TrackerDelay delayLeft(Recording recording, const RecordingFit& fit) {
   std::vector<Vector3> predicted;
-  for (size_t i = 0; i < recording.samples.size(); ++i)
+  std::vector<RecordedSample> solved;
+  for (size_t i = 0; i < recording.samples.size(); ++i) {
+    if (!fit.position_residual[i].allFinite()) continue;
     predicted.push_back(recording.samples[i].tip_position + fit.registration.X_AB.R * fit.position_residual[i]);
+    solved.push_back(recording.samples[i]);
+  }
+  recording.samples = solved;
   return fitTrackerDelay(recording, predicted);
 }
 
@@ -68,7 +74,7 @@ int main(int argc, char** argv) {
     // Twice, as a registration by samples in motion is wrong by the delay at first.
     for (int round = 0; fit_delay && found.determined && round < 2; ++round) {
       const double rms_before = found.rms_before;
-      found = delayLeft(withTrackerDelay(recording, tracker_delay), result.recordings[0]);
+      found = delayLeft(relativeToBase(withTrackerDelay(recording, tracker_delay)), result.recordings[0]);
       if (round > 0) found.rms_before = rms_before;
       found.delay = tracker_delay += found.delay;
       result = registered(tracker_delay);
