@@ -79,6 +79,22 @@ void describeRecording(CalibrationProblem& problem, const CalibrationProblem::So
   fit.left_out_error.assign(predictions.size(), kNaN);
 }
 
+void checkSizes(const Scene& scene, const ChannelMap& channels, const std::vector<CalibrationRecording>& recordings,
+                const std::vector<ComplianceRow>& rows) {
+  if (channels.chamberCount() != scene.chamberCount())
+    throw ConfigurationError("channel map", {"feeds " + std::to_string(channels.chamberCount()) + " chambers: must be the "
+                                             "scene's " + std::to_string(scene.chamberCount())});
+  for (const CalibrationRecording& data : recordings)
+    if (data.recording.channelCount() != channels.channelCount())
+      throw ConfigurationError(data.recording.name,
+                               {std::to_string(data.recording.channelCount()) + " pressure channels: must be " +
+                                std::to_string(channels.channelCount()) + ", as the channel map has"});
+  for (const ComplianceRow& row : rows)
+    if (row.pressures.size() != scene.chamberCount())
+      throw ConfigurationError(row.name, {std::to_string(row.pressures.size()) + " pressures: must be " +
+                                          std::to_string(scene.chamberCount())});
+}
+
 bool isModulus(const SceneParameter& parameter) {
   return parameter.name == "youngs_modulus_pa" || parameter.name == "shear_modulus_pa";
 }
@@ -101,30 +117,51 @@ std::vector<SceneParameter> withModuliTimes(std::vector<SceneParameter> paramete
   return parameters;
 }
 
+// Used samples at even ranks of their summed pressure, the highest first: these fail first.
+SamplesToCarry someSamples(const CalibrationRecording& data, const ChannelMap& channels) {
+  constexpr size_t kEnough = 24;
+  std::vector<size_t> order;
+  for (size_t i = 0; i < data.used.size(); ++i)
+    if (data.used[i]) order.push_back(i);
+  std::stable_sort(order.begin(), order.end(), [&](size_t i, size_t j) { return data.channels[i].sum() > data.channels[j].sum(); });
+  SamplesToCarry some;
+  const size_t count = std::min(kEnough, order.size());
+  for (size_t k = 0; k < count; ++k) {
+    const size_t i = order[(2 * k + 1) * order.size() / (2 * count)];
+    some.pressures.push_back(channels.expand(data.channels[i]));
+    some.X_AS.push_back(data.recording.samples[i].tipPose());
+  }
+  return some;
+}
+
 // The factor on the moduli to start with, and what there is to say about it: 1 and nothing if those of the scene carry nearly
-// all samples and rows.
+// all samples and rows. Throws ConfigurationError where they do not, nor can be changed, and too much would be left out.
 std::pair<double, std::string> carryingModuli(const Scene& scene, const ChannelMap& channels,
                                               const std::vector<CalibrationRecording>& recordings,
                                               const std::vector<ComplianceRow>& rows, const ModelOptions& model, bool fits_moduli) {
-  std::vector<Pressures> pressures;
-  for (const CalibrationRecording& data : recordings)
-    for (size_t i = 0; i < data.used.size() && data.recording.channelCount() == channels.channelCount(); ++i)
-      if (data.used[i]) pressures.push_back(channels.expand(data.channels[i]));
-  for (const ComplianceRow& row : rows) pressures.push_back(row.pressures);
-  for (const Pressures& chambers : pressures)
-    if (chambers.size() != scene.chamberCount()) return {1.0, ""};  // CalibrationProblem says so
-  const auto count = static_cast<long>(pressures.size());
-  const long without = withoutEquilibrium(scene, model, pressures, count);
-  if (static_cast<double>(without) <= kFewShare * static_cast<double>(count)) return {1.0, ""};
-  const std::optional<double> factor = carryingFactor(scene, model, pressures);
-  std::string text = std::to_string(without) + " of " + std::to_string(count) + " samples have no equilibrium with the moduli of the scene";
-  if (!factor) return {1.0, text + ", and no other moduli carry the robot: check pressures, sizes and masses"};
-  double youngs_modulus = 0.0;
-  walk(scene, [&](int index, const Segment& s) { if (index == 0) youngs_modulus = s.section.youngs_modulus; }, [](const Link&) {});
-  text += "; " + numberText(*factor) + " times as large ones carry the robot (youngs_modulus_pa: " +
-          numberText(*factor * youngs_modulus) + ")";
-  if (fits_moduli) return {*factor, text + ", so the fit starts there"};
-  return {1.0, text + ": set them in the scene, or fit them by calibrate --parameters youngs_modulus_pa"};
+  std::vector<SamplesToCarry> samples;
+  for (const CalibrationRecording& data : recordings) samples.push_back(someSamples(data, channels));
+  samples.emplace_back();
+  for (const ComplianceRow& row : rows) samples.back().pressures.push_back(row.pressures);
+  double count = 0.0;
+  for (const SamplesToCarry& some : samples) count += static_cast<double>(some.pressures.size());
+  const long most = static_cast<long>(kMostShare * count), without = withoutEquilibrium(scene, model, samples, most);
+  if (static_cast<double>(without) <= std::max(1.0, kFewShare * count)) return {1.0, ""};
+  const std::optional<double> factor = carryingFactor(scene, model, samples);
+  std::string text = "with the moduli of the scene " + std::string(without > most ? "more than " : "") +
+                     std::to_string(std::min(without, most)) + " of " + numberText(count) + " samples tried have no equilibrium";
+  if (!factor) {
+    text += ", and no other moduli carry the robot: check pressures, sizes and masses";
+  } else {
+    double youngs_modulus = 0.0;
+    walk(scene, [&](int index, const Segment& s) { if (index == 0) youngs_modulus = s.section.youngs_modulus; }, [](const Link&) {});
+    text += "; " + numberText(*factor) + " times as large ones carry the robot (youngs_modulus_pa: " +
+            numberText(*factor * youngs_modulus) + ")";
+    if (fits_moduli) return {*factor, text + ", so the fit starts there"};
+    text += ": set them in the scene, or fit them by calibrate --parameters youngs_modulus_pa";
+  }
+  if (without > most) throw ConfigurationError("calibration", {text});
+  return {1.0, text};
 }
 
 }  // namespace
@@ -161,6 +198,7 @@ CalibrationResult calibrate(const Scene& given_scene, const ChannelMap& channels
   const auto progress = [&](const std::string& stage, int done, int total) {
     if (options.progress) options.progress(stage, done, total);
   };
+  checkSizes(given_scene, channels, recordings, rows);
   const bool fits_moduli = fitsModuli(given_parameters);
   const auto [factor, moduli] = carryingModuli(given_scene, channels, recordings, rows, options.model, fits_moduli);
   const Scene scene = withModuliTimes(given_scene, factor);

@@ -111,9 +111,9 @@ struct CalibrationResult {
   std::vector<ComplianceFit> rows;
 };
 
-// Samples without an equilibrium are left out. If more than kFewShare of a recording's have none at the start, the fit starts
-// with larger moduli, with priors likewise, if Young's modulus is among the parameters; else the registrations do not count as
-// determined. Throws ConfigurationError on data that do not fit the scene, or when most samples have no equilibrium then.
+// Samples without an equilibrium are left out. If more than kFewShare have none at the start, the fit starts with other moduli,
+// with priors likewise, if Young's modulus is among the parameters; else the registrations do not count as determined. Throws
+// ConfigurationError on data that do not fit the scene, or when more than kMostShare have none then, with moduli that would do.
 CalibrationResult calibrate(const Scene& scene, const ChannelMap& channels,
                             const std::vector<SceneParameter>& parameters,
                             const std::vector<CalibrationRecording>& recordings, const std::vector<ComplianceRow>& rows,

@@ -73,10 +73,6 @@ CalibrationProblem::CalibrationProblem(const Scene& scene, const ChannelMap& cha
     for (size_t i = 0; i < blocks.size(); ++i)
       if (data.used[i] && options.blocks > 0) blocks[i] = static_cast<int>(seen++ * options.blocks / used);
   }
-  for (const ComplianceRow& row : rows)
-    if (row.pressures.size() != scene.chamberCount())
-      throw ConfigurationError(row.name, {std::to_string(row.pressures.size()) + " pressures: must be " +
-                                          std::to_string(scene.chamberCount())});
 }
 
 Eigen::VectorXd CalibrationProblem::values(const Eigen::VectorXd& x) const { return valuesAt(parameters_, x.data()); }
@@ -105,13 +101,9 @@ CalibrationUnknowns CalibrationProblem::start(const std::string& advice) {
   std::vector<std::vector<Pose>> X_BT(evaluators_.size()), X_AS(evaluators_.size());
   for (size_t n = 0; n < evaluators_.size(); ++n) {
     RecordingEvaluator& evaluator = *evaluators_[n];
-    evaluator.chooseFitted(x);
-    const std::vector<bool>& used = evaluator.data().used;
-    const long count = std::count(used.begin(), used.end(), true), left_out = count - evaluator.fittedCount();
-    if (2 * left_out > count)
+    if (!evaluator.chooseFitted(x))
       throw ConfigurationError("calibration of " + evaluator.data().recording.name,
-                               {std::to_string(left_out) + " of " + std::to_string(count) +
-                                " samples have no equilibrium at the start: " + evaluator.failure() +
+                               {"more than a fifth of the samples have no equilibrium at the start: " + evaluator.failure() +
                                 (advice.empty() ? "" : "; " + advice)});
     evaluator.addPairs(x, X_BT[registrationIndex(n)], X_AS[registrationIndex(n)]);
   }

@@ -33,7 +33,7 @@ class CalibrationProblem {
   Solution solve(const CalibrationUnknowns& start, const ResidualSigmas& sigmas, const LeftOut& left_out, double tolerance,
                  bool want_jacobian = false);
 
-  // Leaves out samples that have no solution there. Throws ConfigurationError when fewer than half of a recording's have one.
+  // Leaves out samples that have no solution there. Throws ConfigurationError when a fifth of a recording's have none.
   // advice: added then.
   CalibrationUnknowns start(const std::string& advice = "");
   Eigen::VectorXd values(const Eigen::VectorXd& x) const;  // SI

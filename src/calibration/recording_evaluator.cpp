@@ -34,13 +34,6 @@ RecordingEvaluator::RecordingEvaluator(const Scene& scene, const ChannelMap& cha
       measures_(data.recording.measures.value_or(TrackerMeasures::kPose)), fitted_(data.used) {
   constexpr double kAccuracy = 1e-9;  // leaves 1e-5 of a difference by a thousandth of a prior sigma
   model_.accuracy = std::min(model_.accuracy, kAccuracy);
-  if (channels.chamberCount() != scene.chamberCount())
-    throw ConfigurationError("channel map", {"feeds " + std::to_string(channels.chamberCount()) + " chambers: must be the "
-                                             "scene's " + std::to_string(scene.chamberCount())});
-  if (data.recording.channelCount() != channels.channelCount())
-    throw ConfigurationError(data.recording.name,
-                             {std::to_string(data.recording.channelCount()) + " pressure channels: must be " +
-                              std::to_string(channels.channelCount()) + ", as the channel map has"});
   correlation_ = std::max(1.0, options.correlation_time / sampleTime(data.recording, options.correlation_time));
 }
 
@@ -75,7 +68,6 @@ bool RecordingEvaluator::predict(const Eigen::VectorXd& values, const std::vecto
 
 bool RecordingEvaluator::differentiate(const Eigen::VectorXd& values, long most) {
   const std::vector<Pose>& X_BT = predictions_.X_BT;
-  const auto count = static_cast<long>(X_BT.size());
   predictions_.derivative.resize(X_BT.size());
   for (auto& derivative : predictions_.derivative) derivative.setZero(6, values.size());
   std::vector<Pose> above, below;
@@ -84,8 +76,8 @@ bool RecordingEvaluator::differentiate(const Eigen::VectorXd& values, long most)
     const ParameterStep step = stepAbout(values, parameters_, k);
     if (!(step.distance() > 0.0)) continue;
     long neither = 0;
-    predict(step.above, solved_, count, above, is_above);
-    predict(step.below, solved_, count, below, is_below);
+    if (!predict(step.above, solved_, most, above, is_above)) is_above.assign(X_BT.size(), false);
+    if (!predict(step.below, solved_, most, below, is_below)) is_below.assign(X_BT.size(), false);
     for (size_t i = 0; i < X_BT.size(); ++i) {
       if (!is_above[i] && !is_below[i]) {
         neither += solved_[i];
@@ -105,7 +97,8 @@ bool RecordingEvaluator::differentiate(const Eigen::VectorXd& values, long most)
 const TipPredictions* RecordingEvaluator::at(const double* x, bool derivatives) {
   const Eigen::VectorXd values = valuesAt(parameters_, x);
   if (cached_ != values || (derivatives && !cache_has_derivatives_)) {
-    const auto few = static_cast<long>(kFewShare * static_cast<double>(fittedCount()));
+    constexpr double kMost = 5.0;  // a sample without a solution takes 0.2 s
+    const auto few = static_cast<long>(std::min(kMost, kFewShare * static_cast<double>(fittedCount())));
     cache_ok_ = predict(values, fitted_, few, predictions_.X_BT, solved_) && (!derivatives || differentiate(values, few));
     cached_ = values;
     cache_has_derivatives_ = derivatives;
@@ -121,9 +114,13 @@ std::vector<bool> RecordingEvaluator::predictAll(const double* x, std::vector<Po
   return solved;
 }
 
-void RecordingEvaluator::chooseFitted(const double* x) {
-  predict(valuesAt(parameters_, x), data_.used, static_cast<long>(data_.used.size()), predictions_.X_BT, fitted_);
+bool RecordingEvaluator::chooseFitted(const double* x) {
+  const auto most = static_cast<long>(std::max(1.0, kMostShare * static_cast<double>(fittedCount())));
+  std::vector<bool> solved;
   cached_.reset();
+  if (!predict(valuesAt(parameters_, x), fitted_, most, predictions_.X_BT, solved)) return false;
+  fitted_ = solved;
+  return true;
 }
 
 long RecordingEvaluator::fittedCount() const { return std::count(fitted_.begin(), fitted_.end(), true); }

@@ -34,15 +34,15 @@ class RecordingEvaluator {
   RecordingEvaluator(const Scene& scene, const ChannelMap& channels, const std::vector<SceneParameter>& parameters,
                      const CalibrationRecording& data, const CalibrationOptions& options);
 
-  // Predictions of the fitted samples at x, the derivatives only when asked for; nullptr where more than kFewShare of them have
-  // no solution: a bad step of the fit. If fewer have none, these stay as they were, without derivatives. Derivatives are
+  // Predictions of the fitted samples at x, the derivatives only when asked for; nullptr where more than kFewShare or five of
+  // them have no solution: a bad step of the fit. If fewer have none, these stay as they were, without derivatives. Derivatives are
   // central differences of solves: the solver is the only linearised rod there is, and a warm solve costs a few microseconds.
   const TipPredictions* at(const double* x, bool derivatives);
   // Poses of every sample of the recording, used or not, and which of them have a solution; the others are the identity.
   std::vector<bool> predictAll(const double* x, std::vector<Pose>& X_BT);
 
-  // Fits from now on the used samples that have a solution at x.
-  void chooseFitted(const double* x);
+  // Leaves out from now on what has no solution at x. False, and the fit has lost its data, if this is more than kMostShare.
+  bool chooseFitted(const double* x);
   bool fits(size_t sample) const { return fitted_[sample]; }
   long fittedCount() const;
 

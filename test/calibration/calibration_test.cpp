@@ -250,20 +250,16 @@ TEST(Calibration, LeavesOutSamplesWithoutEquilibrium) {
   }
 }
 
-// The chambers of the truth are wider and farther out than the tube of the scene has room for.
+// The truth is softer, and only wider chambers farther out could make up for it: more than the tube has room for.
 TEST(Calibration, StopsInsideWhatASceneMayBe) {
-  Scene thin = arm(), wide = arm();
-  CrossSection& section = segmentOf(thin, 0).section;
-  section.chambers.pitch_radius = 0.5 * (section.outer_radius + section.lumen_radius);
-  section.chambers.radius = 0.4 * (section.outer_radius - section.lumen_radius);
-  wide = thin;
-  segmentOf(wide, 0).section.outer_radius *= 1.3;
-  segmentOf(wide, 0).section.chambers.pitch_radius *= 1.4;
-  const std::vector<std::string> names{"chamber_radius_m", "chamber_pitch_radius_m", "youngs_modulus_pa"};
+  const Scene scene = arm();
   SimulatedRecording simulated;
-  simulated.amplitude = 30000.0;
+  simulated.amplitude = 10000.0;
+  CalibrationOptions options = whiteNoise();
+  options.use_priors = false;
   const CalibrationResult result =
-      calibrate(thin, kPairs, parametersOf(thin, names), {use(simulated.record(wide))}, {}, whiteNoise());
+      calibrate(scene, kPairs, parametersOf(scene, {"chamber_radius_m", "chamber_pitch_radius_m"}),
+                {use(simulated.record(withModuliTimes(scene, 0.2)))}, {}, options);
   EXPECT_NO_THROW(parseScene(sceneText(result.scene), "found")) << sceneText(result.scene);
   Scene found = result.scene;
   EXPECT_EQ(result.parameters[1].value, segmentOf(found, 0).section.chambers.pitch_radius);

@@ -39,7 +39,7 @@ grep -q 'tracker delay: NOT determined' "$dir/verdict" || fail "a delay was dete
 awk '/youngs_modulus_pa/ {sub(/[0-9.e+]+$/, "200.0")} {print}' "$arm" >"$dir/soft.yaml"
 "$calibrate" "$dir/soft.yaml" "$dir/pushed.csv" -p youngs_modulus_pa --blocks 0 -o "$dir/carried.yaml" -q >"$dir/report" ||
   fail "calibrate of a soft scene: status $?: $(cat "$dir/report")"
-grep -q "no equilibrium with the moduli of the scene.*so the fit starts there" "$dir/report" || fail "the moduli are not named"
+grep -q "with the moduli of the scene.*no equilibrium.*so the fit starts there" "$dir/report" || fail "the moduli are not named"
 "$calibrate" "$dir/carried.yaml" "$dir/pushed.csv" -p none --blocks 0 -q >"$dir/report" || true
 ! grep -q "no equilibrium" "$dir/report" || fail "the calibrated scene does not carry the robot: $(cat "$dir/report")"
 status=0
@@ -50,7 +50,7 @@ grep -q "carry the robot (youngs_modulus_pa: " "$dir/log" || fail "register_reco
 # Bounds beyond what a scene may have end there: what is written can be read.
 "$calibrate" "$arm" "$dir/pushed.csv" -p creep_share --bounds creep_share=-3:5 --blocks 0 -o "$dir/bounded.yaml" -q \
   >"$dir/report" 2>&1 || true
-grep -q "a scene may have 0 to 0.9; 0 to 0.9 is used" "$dir/report" || fail "bounds are not limited: $(cat "$dir/report")"
+grep -q "0 to 0.9 is used" "$dir/report" || fail "bounds are not limited: $(cat "$dir/report")"
 "$calibrate" "$dir/bounded.yaml" --list >/dev/null || fail "the scene within its bounds cannot be read"
 
 # One registration of two recordings; then the same one given, which is only read.
