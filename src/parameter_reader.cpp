@@ -56,6 +56,8 @@ std::string ParameterReader::textOf(const YAML::Node& value) {
   return value.IsScalar() ? "'" + value.Scalar() + "'" : value.IsSequence() ? "a list" : value.IsNull() ? "nothing" : "a mapping";
 }
 
+std::string ParameterReader::hintOf(const YAML::Node& value) { return value.IsScalar() ? numberHint(value.Scalar()) : ""; }
+
 std::vector<std::string> ParameterReader::unknown() const {
   std::vector<std::string> unknown;
   if (!values_.IsMap()) return unknown;

@@ -84,7 +84,7 @@ class ParameterReader {
     Field found;
     const bool is_good = convert(value, found);
     if (is_good) field = found;
-    else faults_.add(key + (" = " + textOf(value)) + ": must be " + wanted);
+    else faults_.add(key + (" = " + textOf(value)) + ": must be " + wanted + (std::is_same_v<Field, double> ? hintOf(value) : ""));
     return is_good;
   }
   static bool convert(const YAML::Node& value, double& number);
@@ -105,6 +105,7 @@ class ParameterReader {
     return true;
   }
   static std::string textOf(const YAML::Node& value);
+  static std::string hintOf(const YAML::Node& value);  // how to write a number
 
   const YAML::Node values_;
   FaultList& faults_;

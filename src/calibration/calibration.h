@@ -11,6 +11,7 @@
 // fit is repeated.
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,8 +35,10 @@ struct CalibrationRecording {
   std::vector<Pressures> channels;  // gauge, one per sample
   std::vector<bool> used;           // per sample: takes part in the fit
   std::vector<bool> loaded;         // per sample: the force sensor's wrench acts on the model
+  bool relative_to_base = false;    // the tip's poses are in the axes of a base sensor
 
-  // Throws ConfigurationError when fewer than three unloaded samples of the kind are left.
+  // A pose that only repeats the one before is not used. Where each sample has a pose of a base sensor, the tip is taken
+  // relative to it (relativeToBase()). Throws ConfigurationError when fewer than three unloaded samples of the kind are left.
   CalibrationRecording(Recording recording, SampleChoice choice, LoadedSamples loads);
 };
 
@@ -47,6 +50,8 @@ struct CalibrationOptions {
   double correlation_time = 1.0;      // s
   double huber = 2.0;                 // residuals beyond this number of sigmas have linear weight
   bool use_priors = true;
+  bool shared_registration = false;   // of all recordings: they are of one set-up
+  std::optional<Registration> given;  // known registration of all recordings, held constant
   int blocks = 8;                     // of each recording, for the leave-one-block-out error; 0: none
   ForceSensorMount force_sensor;
   std::function<void(const std::string& stage, int done, int total)> progress;  // may be empty
@@ -57,9 +62,12 @@ struct RecordingFit {
   Registration registration;
   bool determined = false;                 // the data determine the registration: the standard errors in the verdict are small
   std::string verdict;                     // the same as text, with advice
-  std::vector<double> position_error;      // |predicted - measured| of the sensor, every sample, m
-  std::vector<double> rotation_error;      // rad, every sample
-  std::vector<Vector3> position_residual;  // predicted - measured, base axes, m
+  int repeated = 0;                        // samples that repeat the pose before
+  int without_equilibrium = 0;             // samples that have none at the solution: left out of all errors
+  bool relative_to_base = false;           // the registration is that of the base sensor's axes, not of the tracker's
+  std::vector<double> position_error;      // |predicted - measured| of the sensor, every sample, m; NaN without equilibrium
+  std::vector<double> rotation_error;      // of what is measured, rad, every sample; NaN without
+  std::vector<Vector3> position_residual;  // predicted - measured, base axes, m; NaN without equilibrium
   std::vector<double> left_out_error;      // position error of used samples with their block left out, m; NaN elsewhere
   ErrorSummary used, quasi_static_unloaded, left_out;
 };
@@ -90,6 +98,7 @@ struct UndeterminedDirection {
 struct CalibrationResult {
   bool converged = false;
   std::string message;  // of the optimiser
+  std::string moduli;   // that the scene's own do not carry the robot, and which would; empty: they do
   int iterations = 0;
   double seconds = 0.0;
   Scene scene;
@@ -102,7 +111,9 @@ struct CalibrationResult {
   std::vector<ComplianceFit> rows;
 };
 
-// Throws ConfigurationError on data that do not fit the scene, or a scene that has no solution at the start.
+// Samples without an equilibrium are left out. If more than kFewShare have none at the start, the fit starts with other moduli,
+// with priors likewise, if Young's modulus is among the parameters; else the registrations do not count as determined. Throws
+// ConfigurationError on data that do not fit the scene, or when more than kMostShare have none then, with moduli that would do.
 CalibrationResult calibrate(const Scene& scene, const ChannelMap& channels,
                             const std::vector<SceneParameter>& parameters,
                             const std::vector<CalibrationRecording>& recordings, const std::vector<ComplianceRow>& rows,

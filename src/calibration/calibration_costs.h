@@ -14,8 +14,17 @@ struct ResidualSigmas {
   double position, rotation;  // m, rad; rotation 0: orientations are not used
 };
 
-// One sample: position and, with a rotation sigma, orientation of the sensor in the tracker's frame, in sigmas. Blocks:
-// the parameters, unless there are none, and the recording's registration. Refers to evaluator and parameters.
+// Smallest rotation (rotation vector, rad) that takes the axis `from` to `to`, unit vectors, and its derivative by a small
+// rotation of `to`.
+struct Tilt {
+  Vector3 vector;
+  Matrix3 derivative;
+};
+Tilt tiltBetween(const Vector3& from, const Vector3& to);
+
+// One sample: position and, with a rotation sigma, orientation of the sensor in the tracker's frame, in sigmas; of a tracker that
+// measures only the sensor's z axis, the tilt of that about the measured x and y axes. Blocks: the parameters, unless there are
+// none, and the recording's registration. Refers to evaluator and parameters.
 class SampleCost : public ceres::CostFunction {
  public:
   SampleCost(RecordingEvaluator& evaluator, size_t sample, const std::vector<SceneParameter>& parameters,

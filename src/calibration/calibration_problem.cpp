@@ -9,6 +9,7 @@
 
 #include "live_stiffness/checks.h"
 #include "live_stiffness/compliance/stiffness_model.h"
+#include "live_stiffness/estimation/registration_fit.h"
 
 namespace live_stiffness {
 namespace {
@@ -72,10 +73,6 @@ CalibrationProblem::CalibrationProblem(const Scene& scene, const ChannelMap& cha
     for (size_t i = 0; i < blocks.size(); ++i)
       if (data.used[i] && options.blocks > 0) blocks[i] = static_cast<int>(seen++ * options.blocks / used);
   }
-  for (const ComplianceRow& row : rows)
-    if (row.pressures.size() != scene.chamberCount())
-      throw ConfigurationError(row.name, {std::to_string(row.pressures.size()) + " pressures: must be " +
-                                          std::to_string(scene.chamberCount())});
 }
 
 Eigen::VectorXd CalibrationProblem::values(const Eigen::VectorXd& x) const { return valuesAt(parameters_, x.data()); }
@@ -91,7 +88,7 @@ bool CalibrationProblem::rowCompliance(size_t row, const Eigen::VectorXd& values
   return true;
 }
 
-CalibrationUnknowns CalibrationProblem::start() {
+CalibrationUnknowns CalibrationProblem::start(const std::string& advice) {
   CalibrationUnknowns unknowns;
   unknowns.x = Eigen::VectorXd::Zero(static_cast<long>(parameters_.size()));
   for (size_t k = 0; k < parameters_.size(); ++k) {
@@ -100,10 +97,24 @@ CalibrationUnknowns CalibrationProblem::start() {
     const double inset = std::min(0.2 * p.prior_sigma, 0.25 * (p.high - p.low));
     unknowns.x[static_cast<long>(k)] = (std::clamp(p.start, p.low + inset, p.high - inset) - p.start) / p.prior_sigma;
   }
-  for (auto& evaluator : evaluators_) {
-    const Registration& start = evaluator->restart(unknowns.x.data());
-    unknowns.registrations.emplace_back() << Vector3::Zero(), start.X_AB.p, start.X_TS.p, Vector3::Zero();
-    evaluator->orientTips(start);
+  const double* x = unknowns.x.data();
+  std::vector<std::vector<Pose>> X_BT(evaluators_.size()), X_AS(evaluators_.size());
+  for (size_t n = 0; n < evaluators_.size(); ++n) {
+    RecordingEvaluator& evaluator = *evaluators_[n];
+    if (!evaluator.chooseFitted(x))
+      throw ConfigurationError("calibration of " + evaluator.data().recording.name,
+                               {"more than a fifth of the samples have no equilibrium at the start: " + evaluator.failure() +
+                                (advice.empty() ? "" : "; " + advice)});
+    evaluator.addPairs(x, X_BT[registrationIndex(n)], X_AS[registrationIndex(n)]);
+  }
+  for (size_t n = 0; n < evaluators_.size(); ++n) {
+    const size_t index = registrationIndex(n);
+    if (index == unknowns.registrations.size()) {
+      const Registration start = options_.given ? *options_.given : fitRegistration(X_BT[index], X_AS[index]).registration;
+      for (size_t m = n; m < evaluators_.size(); ++m) evaluators_[m]->startFrom(start);  // later ones may get their own
+      unknowns.registrations.emplace_back() << Vector3::Zero(), start.X_AB.p, start.X_TS.p, Vector3::Zero();
+    }
+    evaluators_[n]->orientTips(x, registration(unknowns, n));
   }
   return unknowns;
 }
@@ -114,9 +125,9 @@ std::vector<ceres::ResidualBlockId> CalibrationProblem::addData(ceres::Problem& 
   std::vector<ceres::ResidualBlockId> added;
   for (size_t n = 0; n < evaluators_.size(); ++n) {
     const CalibrationRecording& data = evaluators_[n]->data();
-    double* registration = unknowns.registrations[n].data();
+    double* registration = unknowns.registrations[registrationIndex(n)].data();
     for (size_t i = 0; i < data.used.size(); ++i) {
-      if (!data.used[i]) continue;
+      if (!evaluators_[n]->fits(i)) continue;
       if (left_out.recording == static_cast<int>(n) && blocks_[n][i] == left_out.block) continue;
       auto* cost = new SampleCost(*evaluators_[n], i, parameters_, sigmas);
       auto* loss = new ceres::ScaledLoss(new ceres::HuberLoss(options_.huber * std::sqrt(cost->num_residuals() / 3.0)),
@@ -124,6 +135,7 @@ std::vector<ceres::ResidualBlockId> CalibrationProblem::addData(ceres::Problem& 
       added.push_back(count > 0 ? problem.AddResidualBlock(cost, loss, unknowns.x.data(), registration)
                                 : problem.AddResidualBlock(cost, loss, registration));
     }
+    if (options_.given && problem.HasParameterBlock(registration)) problem.SetParameterBlockConstant(registration);
   }
   for (size_t row = 0; row < rows_.size() && count > 0; ++row) {
     if (static_cast<int>(row) == left_out.row) continue;
@@ -142,9 +154,11 @@ void CalibrationProblem::addPriors(ceres::Problem& problem, CalibrationUnknowns&
     const ceres::Vector mean = ceres::Vector::Zero(kRegistrationSize);
     problem.AddResidualBlock(new ceres::NormalPrior(information_root, mean), nullptr, r.data());
   };
-  for (RegistrationVector& r : unknowns.registrations) {
+  for (size_t n = 0; n < unknowns.registrations.size() && !options_.given; ++n) {
+    RegistrationVector& r = unknowns.registrations[n];
     add_prior(r, 6, kOffsetSigma);
-    if (sigmas.rotation <= 0.0) add_prior(r, 9, 1.0);  // nothing else determines the sensor's rotation: it is kept
+    // Where nothing else determines the sensor's rotation, it is kept.
+    if (sigmas.rotation <= 0.0 || !measuresRotation(n)) add_prior(r, 9, 1.0);
   }
   if (!options_.use_priors || parameters_.empty()) return;
   const long count = static_cast<long>(parameters_.size());
@@ -155,6 +169,12 @@ void CalibrationProblem::addPriors(ceres::Problem& problem, CalibrationUnknowns&
   }
   problem.AddResidualBlock(new ceres::NormalPrior(ceres::Matrix::Identity(count, count), mean), nullptr,
                            unknowns.x.data());
+}
+
+bool CalibrationProblem::measuresRotation(size_t registration) const {
+  for (size_t n = 0; n < evaluators_.size(); ++n)
+    if (registrationIndex(n) == registration && evaluators_[n]->measures() == TrackerMeasures::kPose) return true;
+  return false;
 }
 
 void CalibrationProblem::search(ceres::Problem& problem, double tolerance, Solution& solution) const {
@@ -205,12 +225,18 @@ CalibrationProblem::Solution CalibrationProblem::solve(const CalibrationUnknowns
   if (!want_jacobian) return solution;
 
   if (!parameters_.empty()) evaluate.parameter_blocks.push_back(unknowns.x.data());
-  for (RegistrationVector& r : unknowns.registrations) evaluate.parameter_blocks.push_back(r.data());
+  for (RegistrationVector& r : unknowns.registrations)
+    if (!options_.given) evaluate.parameter_blocks.push_back(r.data());
+  if (evaluate.parameter_blocks.empty()) return solution;  // Ceres would take all blocks
   evaluate.num_threads = 1;
   std::vector<double> residuals;
   ceres::CRSMatrix sparse;
   double cost = 0.0;
-  if (!problem.Evaluate(evaluate, &cost, &residuals, nullptr, &sparse)) return solution;
+  if (!problem.Evaluate(evaluate, &cost, &residuals, nullptr, &sparse)) {  // then nothing is known of the parameters
+    solution.jacobian =
+        Eigen::MatrixXd::Zero(1, unknowns.x.size() + (options_.given ? 0 : kRegistrationSize * unknowns.registrations.size()));
+    return solution;
+  }
   solution.residuals = Eigen::Map<Eigen::VectorXd>(residuals.data(), static_cast<long>(residuals.size()));
   solution.jacobian = Eigen::MatrixXd::Zero(sparse.num_rows, sparse.num_cols);
   for (int row = 0; row < sparse.num_rows; ++row)

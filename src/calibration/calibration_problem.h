@@ -33,9 +33,15 @@ class CalibrationProblem {
   Solution solve(const CalibrationUnknowns& start, const ResidualSigmas& sigmas, const LeftOut& left_out, double tolerance,
                  bool want_jacobian = false);
 
-  CalibrationUnknowns start();
+  // Leaves out samples that have no solution there. Throws ConfigurationError when a fifth of a recording's have none.
+  // advice: added then.
+  CalibrationUnknowns start(const std::string& advice = "");
   Eigen::VectorXd values(const Eigen::VectorXd& x) const;  // SI
   RecordingEvaluator& evaluator(size_t recording) { return *evaluators_[recording]; }
+  size_t registrationIndex(size_t recording) const { return options_.shared_registration || options_.given ? 0 : recording; }
+  Registration registration(const CalibrationUnknowns& unknowns, size_t recording) const {
+    return evaluators_[recording]->registration(unknowns.registrations[registrationIndex(recording)]);
+  }
   // Block of a sample, 0 to options.blocks - 1: equal spans of time of the samples used.
   int blockOf(size_t recording, size_t sample) const { return blocks_[recording][sample]; }
   // Compliance of a row at these values (SI) of the parameters, m/N. False if there is no solution.
@@ -46,6 +52,7 @@ class CalibrationProblem {
   std::vector<ceres::ResidualBlockId> addData(ceres::Problem& problem, CalibrationUnknowns& unknowns,
                                               const ResidualSigmas& sigmas, const LeftOut& left_out);
   void addPriors(ceres::Problem& problem, CalibrationUnknowns& unknowns, const ResidualSigmas& sigmas) const;
+  bool measuresRotation(size_t registration) const;  // all three angles of the sensor, in one of its recordings
   void search(ceres::Problem& problem, double tolerance, Solution& solution) const;
 
   const Scene& scene_;

@@ -41,12 +41,31 @@ std::string directionText(const UndeterminedDirection& direction, const std::vec
   return text;
 }
 
+// A name as a field: with quotes where it has a separator in it.
+std::string csvText(const std::string& name) {
+  if (name.find_first_of(",;\"\t\n") == std::string::npos) return name;
+  std::string quoted;
+  for (char c : name) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return '"' + quoted + '"';
+}
+
+// Nothing for a number that is not there (NaN).
+std::string csvText(double number) {
+  if (!std::isfinite(number)) return "";
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(9);
+  out << number;
+  return out.str();
+}
+
 }  // namespace
 
 std::string reportText(const CalibrationResult& result) {
   std::ostringstream out;
   out << (result.converged ? "converged" : "NOT converged: " + result.message) << "; " << numberText(result.seconds)
       << " s\n";
+  if (!result.moduli.empty()) out << "\n" << result.moduli << "\n";
   if (!result.parameters.empty()) {
     out << "\n" << padded("parameter", 28) << padded("estimate", 12) << padded("std error", 12)
         << padded("data alone", 12) << "prior\n";
@@ -71,8 +90,15 @@ std::string reportText(const CalibrationResult& result) {
       out << "  " << directionText(direction, result.parameters) << "\n";
   }
   for (const RecordingFit& fit : result.recordings) {
-    out << "\n" << fit.name << "\n"
-        << "  tip error, samples of the fit:      " << millimetreText(fit.used) << "\n";
+    out << "\n" << fit.name << "\n";
+    if (fit.relative_to_base)
+      out << "  relative to its base sensor: base_in_tracker is the base in that sensor's axes\n";
+    if (fit.repeated > 0)
+      out << "  " << fit.repeated << " of " << fit.position_error.size() << " samples repeat the pose before and are not fitted\n";
+    if (fit.without_equilibrium > 0)
+      out << "  " << fit.without_equilibrium << " of " << fit.position_error.size()
+          << " samples have no equilibrium and are left out\n";
+    out << "  tip error, samples of the fit:      " << millimetreText(fit.used) << "\n";
     if (fit.quasi_static_unloaded.count > 0)
       out << "  tip error, quasi-static unloaded:   " << millimetreText(fit.quasi_static_unloaded) << "\n";
     if (fit.left_out.count > 0)
@@ -83,11 +109,15 @@ std::string reportText(const CalibrationResult& result) {
     out << "\nnoise seen (per axis): " << numberText(1e3 * result.position_sigma) << " mm, "
         << numberText(degrees(result.rotation_sigma)) << " deg\n";
   ComplianceFit mean;
+  const auto solved = static_cast<double>(std::count_if(
+      result.rows.begin(), result.rows.end(), [](const ComplianceFit& fit) { return std::isfinite(fit.norm_error); }));
   for (const ComplianceFit& fit : result.rows) {
-    out << "\n" << fit.name << ": " << errorsText(fit);
+    const bool has_solution = std::isfinite(fit.norm_error);
+    out << "\n" << fit.name << ": " << (has_solution ? errorsText(fit) : "has no equilibrium");
+    if (!has_solution) continue;
     for (double ComplianceFit::*error : {&ComplianceFit::norm_error, &ComplianceFit::matrix_error,
                                          &ComplianceFit::left_out_norm_error, &ComplianceFit::left_out_matrix_error})
-      mean.*error += fit.*error / static_cast<double>(result.rows.size());
+      mean.*error += fit.*error / solved;
   }
   if (!result.rows.empty()) out << "\nmean: " << errorsText(mean) << "\n";
   return out.str();
@@ -105,9 +135,9 @@ std::string residualTable(const CalibrationResult& result, const std::vector<Cal
     const RecordingFit& fit = result.recordings[n];
     for (size_t i = 0; i < fit.position_error.size(); ++i) {
       const Vector3& e = fit.position_residual[i];
-      out << fit.name << "," << recordings[n].recording.samples[i].time << "," << recordings[n].used[i] << "," << e.x()
-          << "," << e.y() << "," << e.z() << "," << fit.position_error[i] << "," << fit.rotation_error[i] << ",";
-      if (std::isfinite(fit.left_out_error[i])) out << fit.left_out_error[i];
+      out << csvText(fit.name) << "," << recordings[n].recording.samples[i].time << "," << recordings[n].used[i];
+      for (double error : {e.x(), e.y(), e.z(), fit.position_error[i], fit.rotation_error[i], fit.left_out_error[i]})
+        out << "," << csvText(error);
       for (int k = 0; k < channels; ++k) out << "," << recordings[n].channels[i][k];
       out << "\n";
     }
@@ -125,7 +155,7 @@ std::string complianceTableOf(const CalibrationResult& result) {
       for (int i = 1; i <= 3; ++i) out << "," << which << "_c" << i << j << "_m_per_n";
   out << "\n";
   for (const ComplianceFit& fit : result.rows) {
-    out << fit.name << "," << fit.norm_error << "," << fit.matrix_error << "," << fit.left_out_norm_error << ","
+    out << csvText(fit.name) << "," << fit.norm_error << "," << fit.matrix_error << "," << fit.left_out_norm_error << ","
         << fit.left_out_matrix_error;
     for (const Matrix3* C : {&fit.measured, &fit.predicted, &fit.left_out})
       for (int k = 0; k < 9; ++k) out << "," << (*C)(k);

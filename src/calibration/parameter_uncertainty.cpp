@@ -29,11 +29,8 @@ void describeParameters(const CalibrationProblem& problem, const std::vector<Sce
   const long count = static_cast<long>(parameters.size());
   const long rest = solution.jacobian.cols() - count;
   Eigen::MatrixXd information = solution.jacobian.transpose() * solution.jacobian;
-  for (size_t n = 0; n < recordings; ++n)  // the weak prior on the sensor's offset
-    for (int k = 6; k < 9; ++k) {
-      const long at = count + static_cast<long>(n) * kRegistrationSize + k;
-      information(at, at) += 1.0 / (kOffsetSigma * kOffsetSigma);
-    }
+  for (long at = count; at < information.cols(); at += kRegistrationSize)  // the weak prior on the sensor's offset
+    information.diagonal().segment(at + 6, 3).array() += 1.0 / (kOffsetSigma * kOffsetSigma);
   // Information of the data about the parameters, registrations eliminated, in units of the priors' information.
   Eigen::MatrixXd data = information.topLeftCorner(count, count);
   if (rest > 0 && count > 0)
@@ -46,9 +43,10 @@ void describeParameters(const CalibrationProblem& problem, const std::vector<Sce
   for (long k = 0; k < count; ++k) {
     const SceneParameter& p = parameters[static_cast<size_t>(k)];
     const double near = 1e-6 * (p.high - p.low);
-    result.parameters.push_back({p, values[k], p.prior_sigma * std::sqrt(covariance(k, k)),
+    const double value = valueIn(result.scene, p, values[k]);
+    result.parameters.push_back({p, value, p.prior_sigma * std::sqrt(covariance(k, k)),
                                  p.prior_sigma * std::sqrt(data_covariance(k, k)),
-                                 values[k] < p.low + near || values[k] > p.high - near});
+                                 values[k] < p.low + near || values[k] > p.high - near || std::abs(value - values[k]) > near});
   }
   if (count > 0) {
     const Eigen::VectorXd deviation = covariance.diagonal().cwiseSqrt();
@@ -58,11 +56,15 @@ void describeParameters(const CalibrationProblem& problem, const std::vector<Sce
       result.undetermined.push_back({eigen.eigenvectors().col(k), std::max(0.0, eigen.eigenvalues()[k])});
   }
   // Registrations, including the uncertainty of the parameters.
+  for (size_t n = 0; n < recordings && rest == 0; ++n) {
+    result.recordings[n].determined = true;
+    result.recordings[n].verdict = "given";
+  }
   if (rest == 0) return;
   if (count > 0) information.topLeftCorner(count, count) += prior;
   const Eigen::MatrixXd all = inverseInformation(information);
   for (size_t n = 0; n < recordings; ++n) {
-    const long at = count + static_cast<long>(n) * kRegistrationSize;
+    const long at = count + static_cast<long>(problem.registrationIndex(n)) * kRegistrationSize;
     const double turn = degrees(std::sqrt(all.diagonal().segment(at, 3).maxCoeff()));
     const double offset = std::sqrt(all.diagonal().segment(at + 6, 3).maxCoeff());
     RecordingFit& fit = result.recordings[n];

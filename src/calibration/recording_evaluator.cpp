@@ -5,15 +5,23 @@
 #include "estimation/creep.h"
 #include "live_stiffness/checks.h"
 #include "live_stiffness/compliance/stiffness_model.h"
-#include "live_stiffness/estimation/registration_fit.h"
 
 namespace live_stiffness {
 namespace {
 
-double sampleTime(const Recording& recording) {
-  const size_t count = recording.samples.size();
-  if (count < 2) return 1.0;
-  return (recording.samples.back().time - recording.samples.front().time) / static_cast<double>(count - 1);
+// Mean time between poses that are new, s. A gap in which the tracker repeated itself counts as `most` s at most.
+double sampleTime(const Recording& recording, double most) {
+  double sum = 0.0;
+  size_t last = 0;
+  int gaps = 0;
+  for (size_t i = 1; i < recording.samples.size(); ++i) {
+    if (recording.samples[i].unchanged_for > 0.0) continue;
+    const double gap = recording.samples[i].time - recording.samples[last].time;
+    sum += i > last + 1 ? std::min(gap, most) : gap;
+    last = i;
+    ++gaps;
+  }
+  return gaps > 0 ? sum / gaps : 1.0;
 }
 
 }  // namespace
@@ -22,59 +30,66 @@ RecordingEvaluator::RecordingEvaluator(const Scene& scene, const ChannelMap& cha
                                        const std::vector<SceneParameter>& parameters, const CalibrationRecording& data,
                                        const CalibrationOptions& options)
     : scene_(scene), channels_(channels), parameters_(parameters), data_(data), model_(options.model),
-      mount_(options.force_sensor), readings_(data.recording) {
+      mount_(options.force_sensor), readings_(data.recording),
+      measures_(data.recording.measures.value_or(TrackerMeasures::kPose)), fitted_(data.used) {
   constexpr double kAccuracy = 1e-9;  // leaves 1e-5 of a difference by a thousandth of a prior sigma
   model_.accuracy = std::min(model_.accuracy, kAccuracy);
-  if (channels.chamberCount() != scene.chamberCount())
-    throw ConfigurationError("channel map", {"feeds " + std::to_string(channels.chamberCount()) + " chambers: must be the "
-                                             "scene's " + std::to_string(scene.chamberCount())});
-  if (data.recording.channelCount() != channels.channelCount())
-    throw ConfigurationError(data.recording.name,
-                             {std::to_string(data.recording.channelCount()) + " pressure channels: must be " +
-                              std::to_string(channels.channelCount()) + ", as the channel map has"});
-  correlation_ = std::max(1.0, options.correlation_time / sampleTime(data.recording));
+  correlation_ = std::max(1.0, options.correlation_time / sampleTime(data.recording, options.correlation_time));
 }
 
-bool RecordingEvaluator::predict(const Eigen::VectorXd& values, bool all, std::vector<Pose>& X_BT) {
+bool RecordingEvaluator::predict(const Eigen::VectorXd& values, const std::vector<bool>& which, long most,
+                                 std::vector<Pose>& X_BT, std::vector<bool>& solved) {
   const Scene scene = withParameters(scene_, parameters_, values);
   const ForceSensorMount mount = withParameters(mount_, parameters_, values);
   const StiffnessModel model(scene, model_);
   StiffnessWorkspace workspace = model.makeWorkspace();
   SceneCreep creep(scene);
-  X_BT.resize(data_.used.size());
-  for (size_t i = 0; i < X_BT.size(); ++i) {
+  X_BT.resize(which.size());
+  solved.assign(which.size(), false);
+  long failed = 0;
+  for (size_t i = 0; i < which.size(); ++i) {
     const double time = data_.recording.samples[i].time;
     const Pressures& effective = creep.update(data_.channels[i], time);
-    if (!all && !data_.used[i]) continue;
+    if (!which[i]) continue;
     const bool pushed = !R_BT_.empty() && data_.loaded[i] && data_.recording.samples[i].tip_wrench;
     const Wrench tip_wrench = pushed ? readings_.atTip(mount, time, R_BT_[i]) : Wrench(Wrench::Zero());
     const StiffnessSolution solution = model.solve(channels_.expand(effective), tip_wrench, workspace);
-    if (!solution.status.ok()) {
-      failure_ = "sample at " + numberText(time) + " s: " + model.describe(solution.status);
-      return false;
+    solved[i] = solution.status.ok();
+    if (solved[i]) {
+      X_BT[i] = solution.X_BT;
+      continue;
     }
-    X_BT[i] = solution.X_BT;
+    if (failed == 0) failure_ = "sample at " + numberText(time) + " s: " + model.describe(solution.status);
+    if (++failed > most) return false;
+    workspace = model.makeWorkspace();
   }
   return true;
 }
 
-bool RecordingEvaluator::differentiate(const Eigen::VectorXd& values) {
+bool RecordingEvaluator::differentiate(const Eigen::VectorXd& values, long most) {
   const std::vector<Pose>& X_BT = predictions_.X_BT;
   predictions_.derivative.resize(X_BT.size());
   for (auto& derivative : predictions_.derivative) derivative.setZero(6, values.size());
   std::vector<Pose> above, below;
+  std::vector<bool> is_above, is_below;
   for (size_t k = 0; k < parameters_.size(); ++k) {
-    ParameterStep step = stepAbout(values, parameters_, k);
+    const ParameterStep step = stepAbout(values, parameters_, k);
     if (!(step.distance() > 0.0)) continue;
-    const bool is_above = predict(step.above, false, above), is_below = predict(step.below, false, below);
-    if (!is_above && !is_below) return false;
-    // Next to where solutions end, the side that has them counts.
-    if (!is_above) above = X_BT, step.above = values;
-    if (!is_below) below = X_BT, step.below = values;
+    long neither = 0;
+    if (!predict(step.above, solved_, most, above, is_above)) is_above.assign(X_BT.size(), false);
+    if (!predict(step.below, solved_, most, below, is_below)) is_below.assign(X_BT.size(), false);
     for (size_t i = 0; i < X_BT.size(); ++i) {
-      if (!data_.used[i]) continue;
-      predictions_.derivative[i].col(static_cast<long>(k)) = residualTwist(above[i], below[i]) / step.distance();
+      if (!is_above[i] && !is_below[i]) {
+        neither += solved_[i];
+        continue;
+      }
+      // Next to where solutions end, the side that has them counts.
+      const double distance = ((is_above[i] ? step.above : values) - (is_below[i] ? step.below : values)).sum();
+      if (!(distance > 0.0)) continue;
+      predictions_.derivative[i].col(static_cast<long>(k)) =
+          residualTwist(is_above[i] ? above[i] : X_BT[i], is_below[i] ? below[i] : X_BT[i]) / distance;
     }
+    if (neither > most) return false;
   }
   return true;
 }
@@ -82,17 +97,44 @@ bool RecordingEvaluator::differentiate(const Eigen::VectorXd& values) {
 const TipPredictions* RecordingEvaluator::at(const double* x, bool derivatives) {
   const Eigen::VectorXd values = valuesAt(parameters_, x);
   if (cached_ != values || (derivatives && !cache_has_derivatives_)) {
-    cache_ok_ = predict(values, false, predictions_.X_BT) && (!derivatives || differentiate(values));
+    constexpr double kMost = 5.0;  // a sample without a solution takes 0.2 s
+    const auto few = static_cast<long>(std::min(kMost, kFewShare * static_cast<double>(fittedCount())));
+    cache_ok_ = predict(values, fitted_, few, predictions_.X_BT, solved_) && (!derivatives || differentiate(values, few));
     cached_ = values;
     cache_has_derivatives_ = derivatives;
   }
   return cache_ok_ ? &predictions_ : nullptr;
 }
 
-void RecordingEvaluator::orientTips(const Registration& registration) {
+std::vector<bool> RecordingEvaluator::predictAll(const double* x, std::vector<Pose>& X_BT) {
+  const std::vector<bool> all(data_.used.size(), true);
+  std::vector<bool> solved;
+  X_BT.assign(all.size(), Pose());
+  predict(valuesAt(parameters_, x), all, static_cast<long>(all.size()), X_BT, solved);
+  return solved;
+}
+
+bool RecordingEvaluator::chooseFitted(const double* x) {
+  const auto most = static_cast<long>(std::max(1.0, kMostShare * static_cast<double>(fittedCount())));
+  std::vector<bool> solved;
+  cached_.reset();
+  if (!predict(valuesAt(parameters_, x), fitted_, most, predictions_.X_BT, solved)) return false;
+  fitted_ = solved;
+  return true;
+}
+
+long RecordingEvaluator::fittedCount() const { return std::count(fitted_.begin(), fitted_.end(), true); }
+
+void RecordingEvaluator::orientTips(const double* x, const Registration& registration) {
+  std::vector<Pose> X_BT;
+  std::vector<bool> solved(data_.used.size(), false);
+  if (measures_ != TrackerMeasures::kPose) solved = predictAll(x, X_BT);
   R_BT_.clear();
-  for (const RecordedSample& sample : data_.recording.samples)
-    R_BT_.push_back(registration.tipPose(sample.tipPose()).R);
+  for (size_t i = 0; i < solved.size(); ++i) {
+    Pose X_AS = data_.recording.samples[i].tipPose();
+    if (solved[i]) X_AS = completedPose(X_AS, registration.sensorPose(X_BT[i]), measures_);
+    R_BT_.push_back(registration.tipPose(X_AS).R);
+  }
   cached_.reset();
 }
 
@@ -103,18 +145,13 @@ Registration RecordingEvaluator::registration(const RegistrationVector& r) const
   return result;
 }
 
-const Registration& RecordingEvaluator::restart(const double* x) {
+void RecordingEvaluator::addPairs(const double* x, std::vector<Pose>& X_BT, std::vector<Pose>& X_AS) {
   const TipPredictions* predictions = at(x, false);
-  if (predictions == nullptr)
-    throw ConfigurationError("calibration of " + data_.recording.name,
-                             {"the model has no solution at the start: " + failure()});
-  std::vector<Pose> X_BT, X_AS;
-  for (size_t i = 0; i < data_.used.size(); ++i) {
-    if (!data_.used[i] || data_.loaded[i]) continue;
+  for (size_t i = 0; predictions != nullptr && i < fitted_.size(); ++i) {
+    if (!fitted_[i] || data_.loaded[i]) continue;
     X_BT.push_back(predictions->X_BT[i]);
     X_AS.push_back(data_.recording.samples[i].tipPose());
   }
-  return start_ = fitRegistration(X_BT, X_AS).registration;
 }
 
 }  // namespace live_stiffness

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "calibration/calibration.h"
+#include "calibration/carrying_moduli.h"
 
 namespace live_stiffness {
 
@@ -17,10 +18,10 @@ using RegistrationVector = Eigen::Matrix<double, kRegistrationSize, 1>;
 
 struct CalibrationUnknowns {
   Eigen::VectorXd x;
-  std::vector<RegistrationVector> registrations;
+  std::vector<RegistrationVector> registrations;  // one if it is shared or given, else one per recording
 };
 
-// One entry per sample of the recording; those of samples that are not used stay as they are.
+// One entry per sample of the recording; those of samples that are not used, or have no solution, stay as they are.
 struct TipPredictions {
   std::vector<Pose> X_BT;
   // Twist of T (base axes) by parameter: d p / d value and the small rotation, SI; 6 x parameters.
@@ -33,27 +34,39 @@ class RecordingEvaluator {
   RecordingEvaluator(const Scene& scene, const ChannelMap& channels, const std::vector<SceneParameter>& parameters,
                      const CalibrationRecording& data, const CalibrationOptions& options);
 
-  // Predictions at x, the derivatives only when asked for; nullptr where a sample has no solution. Derivatives are central
-  // differences of solves: the solver is the only linearised rod there is, and a warm solve costs a few microseconds.
+  // Predictions of the fitted samples at x, the derivatives only when asked for; nullptr where more than kFewShare or five of
+  // them have no solution: a bad step of the fit. If fewer have none, these stay as they were, without derivatives. Derivatives are
+  // central differences of solves: the solver is the only linearised rod there is, and a warm solve costs a few microseconds.
   const TipPredictions* at(const double* x, bool derivatives);
-  // Poses of every sample of the recording, used or not.
-  bool predictAll(const double* x, std::vector<Pose>& X_BT) { return predict(valuesAt(parameters_, x), true, X_BT); }
+  // Poses of every sample of the recording, used or not, and which of them have a solution; the others are the identity.
+  std::vector<bool> predictAll(const double* x, std::vector<Pose>& X_BT);
 
-  // After this call the wrenches of loaded samples act on the tip, oriented as the tracker saw it; before, no wrench acts.
-  void orientTips(const Registration& registration);
+  // Leaves out from now on what has no solution at x. False, and the fit has lost its data, if this is more than kMostShare.
+  bool chooseFitted(const double* x);
+  bool fits(size_t sample) const { return fitted_[sample]; }
+  long fittedCount() const;
+
+  // After this call the wrenches of loaded samples act on the tip, oriented as the tracker saw it (what it does not measure: as
+  // predicted at x); before, no wrench acts.
+  void orientTips(const double* x, const Registration& registration);
 
   Registration registration(const RegistrationVector& r) const;
-  // Sets the registration that fits best at x, by fitRegistration(), as the new start of the registration's unknowns, and
-  // returns it.
-  const Registration& restart(const double* x);
+  // Adds the predicted tip poses at x of the fitted samples that nothing touches, and the sensor's poses, for fitRegistration().
+  void addPairs(const double* x, std::vector<Pose>& X_BT, std::vector<Pose>& X_AS);
+  // The start of the registration's unknowns.
+  void startFrom(const Registration& registration) { start_ = registration; }
 
   const CalibrationRecording& data() const { return data_; }
   const std::string& failure() const { return failure_; }
   double correlation() const { return correlation_; }
+  TrackerMeasures measures() const { return measures_; }
 
  private:
-  bool predict(const Eigen::VectorXd& values, bool all, std::vector<Pose>& X_BT);
-  bool differentiate(const Eigen::VectorXd& values);
+  // Sets the poses and `solved` of the samples `which`; false as soon as more than `most` of them have no solution.
+  bool predict(const Eigen::VectorXd& values, const std::vector<bool>& which, long most, std::vector<Pose>& X_BT,
+               std::vector<bool>& solved);
+  // False where more than `most` samples have no solution on either side.
+  bool differentiate(const Eigen::VectorXd& values, long most);
 
   const Scene& scene_;
   const ChannelMap& channels_;
@@ -68,6 +81,8 @@ class RecordingEvaluator {
   bool cache_has_derivatives_ = false, cache_ok_ = false;
   Registration start_;
   double correlation_ = 1.0;
+  TrackerMeasures measures_;
+  std::vector<bool> fitted_, solved_;  // per sample; solved_: those of predictions_
   std::string failure_;
 };
 

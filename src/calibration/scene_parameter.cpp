@@ -20,6 +20,7 @@ struct Known {
   const char* name;
   NumberOfParameter in;
   double share, least, low, high;
+  Range legal = Range::positive();
 };
 Link* lastLink(Scene& scene) {
   for (auto body = scene.chain.rbegin(); body != scene.chain.rend(); ++body)
@@ -31,22 +32,27 @@ constexpr Known kKnown[] = {
     {"shear_modulus_pa", [](Scene&, Segment& s) { return &s.section.shear_modulus; }, 0.5, 0.0, 1e2, 1e9},
     {"shear_correction", [](Scene&, Segment& s) { return &s.section.shear_correction; }, 0.2, 0.0, 0.1, 10.0},
     {"length_m", [](Scene&, Segment& s) { return &s.length; }, 0.05, 0.0, 1e-3, 10.0},
-    {kPitchRadius, [](Scene&, Segment& s) { return &s.section.chambers.pitch_radius; }, 0.05, 0.0, 1e-5, 1.0},
+    {kPitchRadius, [](Scene&, Segment& s) { return &s.section.chambers.pitch_radius; }, 0.05, 1e-6, 1e-5, 1.0},
     {kChamberRadius, [](Scene&, Segment& s) { return &s.section.chambers.radius; }, 0.05, 0.0, 1e-5, 1.0},
     {"chamber_area_growth_per_pa", [](Scene&, Segment& s) { return &s.section.chambers.area_growth; }, 0.0, 2e-6,
-     kAreaGrowthRange.low, kAreaGrowthRange.high},
+     kAreaGrowthRange.low, kAreaGrowthRange.high, kAreaGrowthRange},
     {kGentLimit, [](Scene&, Segment& s) { return &s.section.material.gent_limit; }, 1.0, 0.0, 0.1, 1e4},
-    {kYeohC2, [](Scene&, Segment& s) { return &s.section.material.yeoh_c2; }, 0.0, 0.5, -2.0, 10.0},
-    {kYeohC3, [](Scene&, Segment& s) { return &s.section.material.yeoh_c3; }, 0.0, 0.5, -2.0, 10.0},
+    {kYeohC2, [](Scene&, Segment& s) { return &s.section.material.yeoh_c2; }, 0.0, 0.5, -2.0, 10.0, Range::finite()},
+    {kYeohC3, [](Scene&, Segment& s) { return &s.section.material.yeoh_c3; }, 0.0, 0.5, -2.0, 10.0, Range::finite()},
     {"pressure_stiffening", [](Scene&, Segment& s) { return &s.section.material.pressure_stiffening; }, 0.0, 1.0,
-     kPressureStiffeningRange.low, kPressureStiffeningRange.high},
-    {"creep_share", [](Scene&, Segment& s) { return &s.section.material.creep_share; }, 0.0, 0.1, 0.0, 0.5},
+     kPressureStiffeningRange.low, kPressureStiffeningRange.high,
+     kPressureStiffeningRange},
+    {"creep_share", [](Scene&, Segment& s) { return &s.section.material.creep_share; }, 0.0, 0.1, 0.0, 0.5, kCreepShareRange},
     {"creep_time_s", [](Scene&, Segment& s) { return &s.section.material.creep_time; }, 1.0, 1.0, 0.2, 60.0},
-    {"tip_mass_kg", [](Scene& scene, Segment&) { return &scene.tip_mass; }, 0.2, 1e-3, 0.0, 10.0},
-    {kLinkMass, [](Scene& scene, Segment&) { return &lastLink(scene)->mass; }, 0.2, 1e-3, 0.0, 10.0},
+    {"tip_mass_kg", [](Scene& scene, Segment&) { return &scene.tip_mass; }, 0.2, 1e-3, 0.0, 10.0, Range::nonnegative()},
+    {kLinkMass, [](Scene& scene, Segment&) { return &lastLink(scene)->mass; }, 0.2, 1e-3, 0.0, 10.0,
+     Range::nonnegative()},
 };
 constexpr double kAzimuthSigma = 5.0 * kDegree, kAzimuthReach = 30.0 * kDegree;
 const std::string kAzimuth = "channel_azimuth_";
+
+// A bound of the chambers' place is a micrometre within what is legal, so that a value there is so, too, when it is read back.
+constexpr double kMargin = 1e-6;
 
 const Segment& firstSegment(const Scene& scene) {
   for (const Body& body : scene.chain)
@@ -68,6 +74,7 @@ bool isThere(const std::string& name, Scene scene) {
   const StretchLaw law = firstSegment(scene).section.material.law;
   if (name == kGentLimit) return law == StretchLaw::kGent;
   if (name == kYeohC2 || name == kYeohC3) return law == StretchLaw::kYeoh;
+  if (name == kPitchRadius || name == kChamberRadius) return firstSegment(scene).section.chambers.count() > 0;
   return name != kLinkMass || lastLink(scene) != nullptr;
 }
 
@@ -77,6 +84,14 @@ void setIn(Scene& scene, Segment& segment, const SceneParameter& parameter, doub
   double& number = *parameter.in(scene, segment);
   if (parameter.name == kYoungsModulus) segment.section.shear_modulus *= value / number;
   number = value;
+}
+
+// Moves the chambers to where they are between lumen and outer wall.
+void fitIntoTube(CrossSection& section) {
+  Chambers& chambers = section.chambers;
+  const double low = section.lumen_radius > 0.0 ? section.lumen_radius + chambers.radius + kMargin : 0.0;
+  const double high = section.outer_radius - chambers.radius - kMargin;
+  if (chambers.count() > 0 && low <= high) chambers.pitch_radius = std::clamp(chambers.pitch_radius, low, high);
 }
 
 }  // namespace
@@ -123,20 +138,25 @@ SceneParameter sceneParameter(const std::string& name, const Scene& scene, const
     parameter.prior_sigma = std::max(known.share * std::abs(parameter.start), known.least);
     parameter.low = known.low;
     parameter.high = known.high;
-    // The tube around them limits chamber radius and pitch radius. The bound is a micrometre smaller, so that a value at the
-    // bound is still legal when it is read back.
-    constexpr double kMargin = 1e-6;
-    const CrossSection& section = firstSegment(scene).section;
-    const double inner = section.lumen_radius, outer = section.outer_radius;
-    const double pitch = section.chambers.pitch_radius, radius = section.chambers.radius;
-    if (name == kPitchRadius) {
-      parameter.low = inner + radius + kMargin;
-      parameter.high = outer - radius - kMargin;
+    parameter.legal = known.legal;
+    // The tubes around them limit chamber radius and pitch radius. Without a lumen chambers may reach over the axis, where the
+    // scene has them there.
+    for (const Body& body : scene.chain) {
+      const auto* segment = std::get_if<Segment>(&body);
+      if (segment == nullptr || segment->section.chambers.count() == 0) continue;
+      const CrossSection& section = segment->section;
+      const double inner = section.lumen_radius, outer = section.outer_radius;
+      const double pitch = section.chambers.pitch_radius, radius = section.chambers.radius;
+      const bool clear = inner > 0.0 || radius <= pitch;
+      if (name == kPitchRadius) {
+        parameter.low = std::max(parameter.low, clear ? inner + radius + kMargin : 0.0);
+        parameter.high = std::min(parameter.high, outer - radius - kMargin);
+      }
+      if (name == kChamberRadius)
+        parameter.high = std::min(parameter.high, std::min(clear ? pitch - inner : outer, outer - pitch) - kMargin);
     }
-    if (name == kChamberRadius) {
-      parameter.low = 0.5 * radius;
-      parameter.high = std::min(pitch - inner, outer - pitch) - kMargin;
-    }
+    if (name == kChamberRadius) parameter.low = 0.5 * parameter.start;
+    parameter.high = std::max(parameter.high, parameter.low);
   }
   parameter.prior_mean = parameter.start;
   parameter.step = 1e-3 * parameter.prior_sigma;
@@ -162,9 +182,32 @@ ParameterStep stepAbout(const Eigen::VectorXd& values, const std::vector<ScenePa
 
 Scene withParameters(const Scene& scene, const std::vector<SceneParameter>& parameters, const Eigen::VectorXd& values) {
   Scene result = scene;
-  for (size_t k = 0; k < parameters.size(); ++k)
-    for (Body& body : result.chain)
-      if (auto* segment = std::get_if<Segment>(&body)) setIn(result, *segment, parameters[k], values[static_cast<long>(k)]);
+  const bool moves_chambers = std::any_of(parameters.begin(), parameters.end(), [](const SceneParameter& p) {
+    return p.name == kPitchRadius || p.name == kChamberRadius;
+  });
+  for (Body& body : result.chain) {
+    auto* segment = std::get_if<Segment>(&body);
+    if (segment == nullptr) continue;
+    for (size_t k = 0; k < parameters.size(); ++k) setIn(result, *segment, parameters[k], values[static_cast<long>(k)]);
+    if (moves_chambers) fitIntoTube(segment->section);
+  }
+  return result;
+}
+
+double valueIn(const Scene& scene, const SceneParameter& parameter, double given) {
+  if (parameter.in == nullptr) return given;
+  Scene copy = scene;
+  Segment first = firstSegment(scene);
+  return *parameter.in(copy, first);
+}
+
+Scene withModuliTimes(const Scene& scene, double factor) {
+  Scene result = scene;
+  for (Body& body : result.chain)
+    if (auto* segment = std::get_if<Segment>(&body)) {
+      segment->section.youngs_modulus *= factor;
+      segment->section.shear_modulus *= factor;
+    }
   return result;
 }
 

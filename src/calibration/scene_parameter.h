@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "live_stiffness/checks.h"
 #include "live_stiffness/rod/scene.h"
 #include "live_stiffness/section/channel_map.h"
 
@@ -24,6 +25,7 @@ struct SceneParameter {
   double low = 0.0, high = 0.0;
   double unit = 1.0;         // SI value of one unit of `name`
   double step = 0.0;         // of central differences: a thousandth of the prior sigma that it has by default
+  Range legal = Range::finite();  // what a scene may have; the bounds lie within it
 };
 
 // Parameter of a scene by its name, with default prior and bounds. Its start is the value of the first segment; a calibrated
@@ -46,7 +48,14 @@ ParameterStep stepAbout(const Eigen::VectorXd& values, const std::vector<ScenePa
 
 // The scene with these values (SI) of the parameters that belong to it; other parameters are ignored. With Young's modulus
 // the shear modulus changes, so that Poisson's ratio stays the same. A channel's azimuth rotates all its chambers together
-// about the backbone.
+// about the backbone. Where a fitted chamber radius or pitch radius would put the chambers through a wall, the pitch radius
+// stops there, so that the scene stays legal.
 Scene withParameters(const Scene& scene, const std::vector<SceneParameter>& parameters, const Eigen::VectorXd& values);
+
+// Value (SI) that the scene has, which is not the one given where withParameters() stopped it.
+double valueIn(const Scene& scene, const SceneParameter& parameter, double given);
+
+// The scene with all its moduli times a factor.
+Scene withModuliTimes(const Scene& scene, double factor);
 
 }  // namespace live_stiffness

@@ -4,13 +4,13 @@
 #include <iostream>
 
 #include "command_line.h"
+#include "calibration/base_sensor.h"
 #include "calibration/calibration.h"
 #include "calibration/calibration_report.h"
-#include "estimation/creep.h"
+#include "calibration/pose_pairs.h"
 #include "estimation/orientation_check.h"
 #include "estimation/tracker_delay.h"
 #include "live_stiffness/checks.h"
-#include "live_stiffness/compliance/stiffness_model.h"
 #include "recording_help.h"
 #include "recording_reader.h"
 #include "sample_options.h"
@@ -29,33 +29,16 @@ const char* const kHelp =
     "measured are not used, and a misread or mirrored one is named. Exit status 1: written, but these data do not determine\n"
     "it, or the orientations are misread.\n\n";
 
-// Predicted tips and measured poses of the samples of the fit that the tracker saw anew, as far as the model has a solution.
-struct PosePairs {
-  std::vector<Pose> X_BT, X_AS;
-};
-PosePairs posePairs(const Scene& scene, const ChannelMap& channels, const CalibrationRecording& data,
-                    const ModelOptions& options) {
-  const StiffnessModel model(scene, options);
-  StiffnessWorkspace workspace = model.makeWorkspace();
-  SceneCreep creep(scene);
-  PosePairs pairs;
-  for (size_t i = 0; i < data.used.size(); ++i) {
-    const RecordedSample& sample = data.recording.samples[i];
-    const Pressures& effective = creep.update(data.channels[i], sample.time);
-    if (!data.used[i] || sample.unchanged_for > 0.0) continue;
-    const StiffnessSolution solution = model.solve(channels.expand(effective), Wrench::Zero(), workspace);
-    if (!solution.status.ok()) continue;
-    pairs.X_BT.push_back(solution.X_BT);
-    pairs.X_AS.push_back(sample.tipPose());
-  }
-  return pairs;
-}
-
-// What delay a registration still leaves, over all samples that nothing touches, in motion or not.
-TrackerDelay delayLeft(const Recording& recording, const RecordingFit& fit) {
+// What delay a registration still leaves, over all samples with an equilibrium that nothing touches, in motion or not.
+TrackerDelay delayLeft(Recording recording, const RecordingFit& fit) {
   std::vector<Vector3> predicted;
-  for (size_t i = 0; i < recording.samples.size(); ++i)
+  std::vector<RecordedSample> solved;
+  for (size_t i = 0; i < recording.samples.size(); ++i) {
+    if (!fit.position_residual[i].allFinite()) continue;
     predicted.push_back(recording.samples[i].tip_position + fit.registration.X_AB.R * fit.position_residual[i]);
+    solved.push_back(recording.samples[i]);
+  }
+  recording.samples = solved;
   return fitTrackerDelay(recording, predicted);
 }
 
@@ -123,7 +106,7 @@ int main(int argc, char** argv) {
     // Twice, as a registration by samples in motion is wrong by the delay at first.
     for (int round = 0; fit_delay && found.determined && round < 2; ++round) {
       const double rms_before = found.rms_before;
-      found = delayLeft(withTrackerDelay(recording, tracker_delay), result.recordings[0]);
+      found = delayLeft(relativeToBase(withTrackerDelay(recording, tracker_delay)), result.recordings[0]);
       if (round > 0) found.rms_before = rms_before;
       found.delay = tracker_delay += found.delay;
       result = registered(tracker_delay);

@@ -39,7 +39,7 @@ void readPressurised(YamlMap& map, CrossSection& section) {
   section.chambers.area_growth =
       map.number("chamber_area_growth_per_pa", kAreaGrowthRange, 0.0);
   section.material.pressure_stiffening = map.number("pressure_stiffening", kPressureStiffeningRange, 0.0);
-  section.material.creep_share = map.number("creep_share", {0.0, 0.9}, 0.0);
+  section.material.creep_share = map.number("creep_share", kCreepShareRange, 0.0);
   section.material.creep_time = map.number("creep_time_s", Range::positive(), 1.0);
 }
 

@@ -9,6 +9,7 @@ namespace live_stiffness {
 // What a scene may say, and a calibration may find.
 inline constexpr Range kAreaGrowthRange{-4.9e-6, 4.9e-6};  // 1/Pa; just below 1 / (2 atm), see Chambers::area_growth
 inline constexpr Range kPressureStiffeningRange{0.0, 10.0};
+inline constexpr Range kCreepShareRange{0.0, 0.9};
 
 // outer_radius_m and lumen_radius_m (default 0) into `section`.
 void readTube(YamlMap& map, CrossSection& section);

@@ -71,14 +71,15 @@ std::vector<Vector6> differences(const Problem& problem, size_t k, double reach)
   CalibrationOptions options = problem.options;
   options.model.accuracy = 1e-12;
   RecordingEvaluator evaluator(problem.scene, problem.channels, problem.parameters, problem.data, options);
-  evaluator.orientTips(Registration());
+  evaluator.orientTips(nullptr, Registration());
   const SceneParameter& p = problem.parameters[k];
   Eigen::VectorXd x = Eigen::VectorXd::Zero(static_cast<long>(problem.parameters.size()));
   std::vector<Pose> above, below;
   x[static_cast<long>(k)] = reach * p.step / p.prior_sigma;
-  EXPECT_TRUE(evaluator.predictAll(x.data(), above)) << evaluator.failure();
+  const std::vector<bool> all(problem.data.used.size(), true);
+  EXPECT_EQ(evaluator.predictAll(x.data(), above), all) << evaluator.failure();
   x *= -1.0;
-  EXPECT_TRUE(evaluator.predictAll(x.data(), below)) << evaluator.failure();
+  EXPECT_EQ(evaluator.predictAll(x.data(), below), all) << evaluator.failure();
   std::vector<Vector6> twists(above.size());
   for (size_t i = 0; i < above.size(); ++i) {
     twists[i] << above[i].p - below[i].p, logSo3(above[i].R * below[i].R.transpose());
@@ -90,7 +91,7 @@ std::vector<Vector6> differences(const Problem& problem, size_t k, double reach)
 // Against differences over other steps, extrapolated to none. Of parameters that are not at a bound.
 void expectDerivativesAgree(const Problem& problem) {
   RecordingEvaluator evaluator(problem.scene, problem.channels, problem.parameters, problem.data, problem.options);
-  evaluator.orientTips(Registration());
+  evaluator.orientTips(nullptr, Registration());
   const Eigen::VectorXd x = Eigen::VectorXd::Zero(static_cast<long>(problem.parameters.size()));
   const TipPredictions* predictions = evaluator.at(x.data(), true);
   ASSERT_NE(predictions, nullptr) << evaluator.failure();
@@ -143,7 +144,7 @@ TEST(RecordingEvaluator, DerivativesAtABoundAreThoseOfTheLegalSide) {
     Eigen::VectorXd moved = x;
     moved[static_cast<long>(k)] = 0.02 * side;
     std::vector<Pose> poses;
-    ASSERT_TRUE(evaluator.predictAll(moved.data(), poses));
+    evaluator.predictAll(moved.data(), poses);
     for (size_t i = 0; i < at.size(); ++i) {
       const Vector3 expected = (poses[i].p - at[i].p) / (0.02 * side * p.prior_sigma);
       const Vector3 found = derivative[i].col(static_cast<long>(k)).head<3>();
@@ -185,6 +186,37 @@ TEST(RecordingEvaluator, NamesTheSampleThatHasNoSolution) {
   const Eigen::VectorXd x = Eigen::VectorXd::Zero(static_cast<long>(problem.parameters.size()));
   EXPECT_EQ(evaluator.at(x.data(), false), nullptr);
   EXPECT_NE(evaluator.failure().find("0.7 s"), std::string::npos) << evaluator.failure();
+  // Chosen, the others are predicted.
+  evaluator.chooseFitted(x.data());
+  EXPECT_EQ(evaluator.fittedCount(), 3);
+  EXPECT_FALSE(evaluator.fits(1));
+  EXPECT_NE(evaluator.at(x.data(), true), nullptr);
+  std::vector<Pose> poses;
+  EXPECT_EQ(evaluator.predictAll(x.data(), poses), (std::vector<bool>{true, false, true, true}));
+}
+
+// A log twice as fast as the tracker, which then loses its sensor for 6 s: the rate is that of the poses that are new.
+TEST(RecordingEvaluator, CorrelationIsThatOfPosesThatAreNew) {
+  Problem problem(paperScene(1), Stepping::kContinuous, true);
+  const auto correlationOf = [&](int count, double sample_time) {
+    std::vector<RecordedSample>& samples = problem.data.recording.samples;
+    samples.assign(static_cast<size_t>(count), samples.front());
+    for (int i = 0; i < count; ++i) samples[static_cast<size_t>(i)].time = sample_time * i;
+    return [&] {
+      return RecordingEvaluator(problem.scene, problem.channels, problem.parameters, problem.data, problem.options).correlation();
+    };
+  };
+  const auto correlation = correlationOf(41, 0.025);
+  EXPECT_NEAR(correlation(), 40.0, 1e-9);
+  std::vector<RecordedSample>& samples = problem.data.recording.samples;
+  for (size_t i = 1; i < samples.size(); i += 2) samples[i].unchanged_for = 0.025;
+  EXPECT_NEAR(correlation(), 20.0, 1e-9);
+  samples.push_back(samples.back());
+  samples.back().time += 6.0;
+  samples.back().unchanged_for = 6.0;
+  samples.push_back(samples.front());
+  samples.back().time = samples[samples.size() - 2].time + 0.05;
+  EXPECT_NEAR(correlation(), 21.0 / (20 * 0.05 + 1.0), 1e-9);
 }
 
 }  // namespace
