@@ -68,6 +68,7 @@ BagSpan playBags(const std::vector<std::string>& paths, const BagTopics& topics,
     ros::console::notifyLoggerLevelsChanged();
     const long total = view.size();
     long done = 0;
+    ros::Time::init();  // without a master
     ros::Time beat;
     for (const rosbag::MessageInstance& message : view) {
       const ros::Time now = message.getTime();

@@ -69,7 +69,9 @@ class Tracks : public BagListener {
       pressures[std::max(ros::Time::now().toSec(), pressures.rbegin()->first)] = Pressures();
   }
   void keep(const std::optional<Parsed<Pose>>& read) {
-    if (read) poses[read->stamp.toSec()] = {read->value, tracker_input.unchangedFor()};
+    constexpr double kLeast = 1e-9;  // s; two messages may arrive at one time
+    if (read)
+      poses[read->stamp.toSec()] = {read->value, tracker_input.isRepeated() ? std::max(kLeast, tracker_input.unchangedFor()) : 0.0};
   }
 };
 

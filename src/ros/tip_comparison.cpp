@@ -28,9 +28,9 @@ void TipComparison::compare(const Parsed<Pose>& X_AS, const KnownState& state) {
   const Pose& expected = state.then.X_BT;
   const Pose measured =
       registration.tipPose(completedPose(X_AS.value, registration.sensorPose(expected), tracker_.measures()));
-  const bool is_lost = tracker_.repeatsItself();
-  estimateWrench(state, is_lost ? nullptr : &measured, X_AS.stamp);
-  if (is_lost) return;
+  const bool is_repeated = tracker_.isRepeated();
+  estimateWrench(state, is_repeated ? nullptr : &measured, X_AS.stamp);
+  if (is_repeated) return;
   X_BT_ = measured;
   const Twist residual = residualTwist(measured, expected);
   tracking_error_ = linear(residual).norm();

@@ -18,7 +18,8 @@ class TipComparison {
   TipComparison(const NodeParameters& parameters, EstimateOutput& output);
 
   TrackerInput& tracker() { return tracker_; }
-  // A pose of the sensor that the tracker read; state: of the robot at its time. Without a registration nothing is put out.
+  // A pose of the sensor that the tracker read; state: of the robot at its time. Without a registration nothing is put out. A
+  // pose that repeats the one before is no measurement: the wrench is then only predicted.
   void compare(const Parsed<Pose>& X_AS, const KnownState& state);
 
   // Forgets the past; call it after a change of the registration.

@@ -71,7 +71,8 @@ std::optional<Parsed<Pose>> TrackerInput::accept(const Parsed<TrackedPose>& pars
   const bool had_message = status_.hasMessage();
   const std::optional<ros::Time> stamp = status_.accept(parsed.stamp);
   if (!stamp) return std::nullopt;
-  if (!had_message || X_AS.p != X_AS_.p || X_AS.R != X_AS_.R) {
+  is_repeated_ = had_message && X_AS.p == X_AS_.p && X_AS.R == X_AS_.R;
+  if (!is_repeated_) {
     last_change_ = ros::Time::now();
     const bool was_known = finder_.found().has_value();
     finder_.add(X_AS);

@@ -32,6 +32,8 @@ class TrackerInput {
   // The same; none: neither told nor found.
   std::optional<TrackerMeasures> knownMeasures() const;
 
+  // True if the newest good pose is that of before: nothing was measured, since a tracker that measures is noisy.
+  bool isRepeated() const { return is_repeated_; }
   double unchangedFor() const { return secondsBetween(last_change_, ros::Time::now()); }  // how long it repeats one pose, s
   // True if the tracker gives the same pose for longer than ~pose_timeout_s: it has lost its sensor.
   bool repeatsItself() const { return unchangedFor() > parameters_.pose_timeout; }
@@ -58,6 +60,7 @@ class TrackerInput {
   std::string other_error_;              // about the newest of them
   Pose X_AS_;                            // newest
   ros::Time last_change_;                // when it last changed
+  bool is_repeated_ = false;
   ros::Time last_tf_stamp_, last_tf_;    // of the newest transform; when the newest message of tf came
   tf2::BufferCore tf_;
 };

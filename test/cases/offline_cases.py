@@ -18,7 +18,7 @@ from make_cases import BAGS, RECORDED, REGISTRATION
 
 SCENE = str(make_cases.CASES / "arm.yaml")
 # The option that gives a program what the node was given; calibrate had --parameters for another thing before.
-NODE_PARAMETERS = {"calibrate": "--node-parameters"}
+NODE_PARAMETERS = {"calibrate": "--parameters"}
 SAME = 0.05  # mm, by which registrations of the same samples may differ
 FEW = 0.5    # mm, of those that have or lack some samples: noise and slow error of the rig
 MANY = 1.0   # mm, of those that have or lack a fifth of them, or all orientations
