@@ -26,8 +26,8 @@ Twist errorOf(const Registration& registration, const Pose& X_BT, const Recorded
 }
 
 // Standard deviations for each axis, from the residuals of the fitted samples. 1.538 is the median length of a 3-vector whose
-// components have unit variance, 1.177 of a 2-vector (the tilt of an axis). At least a tenth of the tracker's noise, so that a simulation without noise is well
-// conditioned.
+// components have unit variance, 1.177 of a 2-vector (the tilt of an axis). At least a tenth of the tracker's noise, so that a
+// simulation without noise is well conditioned.
 ResidualSigmas residualSigmas(CalibrationProblem& problem, size_t recordings,
                                           const CalibrationProblem::Solution& solution,
                                           const CalibrationOptions& options) {
@@ -123,7 +123,8 @@ SamplesToCarry someSamples(const CalibrationRecording& data, const ChannelMap& c
   std::vector<size_t> order;
   for (size_t i = 0; i < data.used.size(); ++i)
     if (data.used[i]) order.push_back(i);
-  std::stable_sort(order.begin(), order.end(), [&](size_t i, size_t j) { return data.channels[i].sum() > data.channels[j].sum(); });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](size_t i, size_t j) { return data.channels[i].sum() > data.channels[j].sum(); });
   SamplesToCarry some;
   const size_t count = std::min(kEnough, order.size());
   for (size_t k = 0; k < count; ++k) {
@@ -138,7 +139,8 @@ SamplesToCarry someSamples(const CalibrationRecording& data, const ChannelMap& c
 // all samples and rows. Throws ConfigurationError where they do not, nor can be changed, and too much would be left out.
 std::pair<double, std::string> carryingModuli(const Scene& scene, const ChannelMap& channels,
                                               const std::vector<CalibrationRecording>& recordings,
-                                              const std::vector<ComplianceRow>& rows, const ModelOptions& model, bool fits_moduli) {
+                                              const std::vector<ComplianceRow>& rows, const ModelOptions& model,
+                                              bool fits_moduli) {
   std::vector<SamplesToCarry> samples;
   for (const CalibrationRecording& data : recordings) samples.push_back(someSamples(data, channels));
   samples.emplace_back();
@@ -154,7 +156,8 @@ std::pair<double, std::string> carryingModuli(const Scene& scene, const ChannelM
     text += ", and no other moduli carry the robot: check pressures, sizes and masses";
   } else {
     double youngs_modulus = 0.0;
-    walk(scene, [&](int index, const Segment& s) { if (index == 0) youngs_modulus = s.section.youngs_modulus; }, [](const Link&) {});
+    walk(scene, [&](int index, const Segment& s) { if (index == 0) youngs_modulus = s.section.youngs_modulus; },
+         [](const Link&) {});
     text += "; " + numberText(*factor) + " times as large ones carry the robot (youngs_modulus_pa: " +
             numberText(*factor * youngs_modulus) + ")";
     if (fits_moduli) return {*factor, text + ", so the fit starts there"};
@@ -187,7 +190,7 @@ CalibrationRecording::CalibrationRecording(Recording given, SampleChoice choice,
     throw ConfigurationError("recording " + recording.name,
                              {std::to_string(unloaded) +
                               " unloaded samples of the kind asked for: must be at least 3" +
-                              (repeated > 0 ? ", without the " + std::to_string(repeated) + " that repeat the pose before" : "")});
+                              (repeated > 0 ? ", and " + std::to_string(repeated) + " only repeat the pose before" : "")});
 }
 
 CalibrationResult calibrate(const Scene& given_scene, const ChannelMap& channels,

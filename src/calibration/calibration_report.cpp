@@ -94,7 +94,8 @@ std::string reportText(const CalibrationResult& result) {
     if (fit.relative_to_base)
       out << "  relative to its base sensor: base_in_tracker is the base in that sensor's axes\n";
     if (fit.repeated > 0)
-      out << "  " << fit.repeated << " of " << fit.position_error.size() << " samples repeat the pose before and are not fitted\n";
+      out << "  " << fit.repeated << " of " << fit.position_error.size()
+          << " samples repeat the pose before and are not fitted\n";
     if (fit.without_equilibrium > 0)
       out << "  " << fit.without_equilibrium << " of " << fit.position_error.size()
           << " samples have no equilibrium and are left out\n";

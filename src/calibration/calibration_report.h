@@ -12,8 +12,8 @@ namespace live_stiffness {
 std::string reportText(const CalibrationResult& result);
 
 // CSV of every sample: recording, time_s, used, error_x_m .. error_z_m (base axes), error_m, rotation_error_rad,
-// left_out_error_m (empty where not left out, errors empty where
-// the model has no equilibrium or the tracker measures no rotation), pressure_K_pa (gauge, one per channel). For scripts/plot_calibration.
+// left_out_error_m, pressure_K_pa (gauge, one per channel). Empty: left_out_error_m where it was not left out, errors where the
+// model has no equilibrium, the rotation's where the tracker measures none. For scripts/plot_calibration.
 std::string residualTable(const CalibrationResult& result, const std::vector<CalibrationRecording>& recordings);
 
 // CSV of every row of the compliance tables: row, norm_error (42), matrix_error and the same left out (left_out_...),

@@ -47,7 +47,8 @@ long withoutEquilibrium(const Scene& scene, const ModelOptions& options, const s
   return count;
 }
 
-std::optional<double> carryingFactor(const Scene& scene, const ModelOptions& options, const std::vector<SamplesToCarry>& samples) {
+std::optional<double> carryingFactor(const Scene& scene, const ModelOptions& options,
+                                     const std::vector<SamplesToCarry>& samples) {
   constexpr int kLargest = 14, kSmallest = -7;  // powers of 2
   constexpr double kFine = 0.25;                // of a power of 2
   size_t count = 0;

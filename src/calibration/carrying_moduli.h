@@ -24,6 +24,7 @@ long withoutEquilibrium(const Scene& scene, const ModelOptions& options, const s
 
 // A factor on all moduli of the scene with which at most kFewShare of them have no equilibrium: of 1.25 to 20 times the smallest
 // such factor (1 to 16384 is searched, then 1 to 1/128), the one at which the poses are fitted best. None if none is found.
-std::optional<double> carryingFactor(const Scene& scene, const ModelOptions& options, const std::vector<SamplesToCarry>& samples);
+std::optional<double> carryingFactor(const Scene& scene, const ModelOptions& options,
+                                     const std::vector<SamplesToCarry>& samples);
 
 }  // namespace live_stiffness

@@ -5,8 +5,8 @@
 
 namespace live_stiffness {
 
-// result.scene must be there. Sets parameters (values, standard errors with and without priors), correlation, undetermined directions and, of each
-// recording, whether its registration is determined. use_priors: the solution was found with them.
+// Sets parameters (values, standard errors with and without priors), correlation, undetermined directions and, of each
+// recording, whether its registration is determined. use_priors: the solution was found with them. result.scene must be there.
 void describeParameters(const CalibrationProblem& problem, const std::vector<SceneParameter>& parameters,
                         const CalibrationProblem::Solution& solution, size_t recordings, bool use_priors,
                         CalibrationResult& result);

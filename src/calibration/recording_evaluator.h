@@ -35,7 +35,7 @@ class RecordingEvaluator {
                      const CalibrationRecording& data, const CalibrationOptions& options);
 
   // Predictions of the fitted samples at x, the derivatives only when asked for; nullptr where more than kFewShare or five of
-  // them have no solution: a bad step of the fit. If fewer have none, these stay as they were, without derivatives. Derivatives are
+  // them have no solution: a bad step of the fit. If fewer have none, these stay as they were, without derivatives, which are
   // central differences of solves: the solver is the only linearised rod there is, and a warm solve costs a few microseconds.
   const TipPredictions* at(const double* x, bool derivatives);
   // Poses of every sample of the recording, used or not, and which of them have a solution; the others are the identity.

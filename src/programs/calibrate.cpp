@@ -61,7 +61,8 @@ po::options_description describe(Arguments& a) {
     ("recordings", po::value(&a.recordings)->composing(), "CSV recordings (or bags)")
     ("compliance-table", po::value(&a.tables)->composing(),
      "CSV of measured compliances: pressure_K_pa per chamber, c11_m_per_n to c33_m_per_n")
-    ("parameters,p", po::value(&a.parameters)->multitoken(), "names of parameters to fit, or none; and the node's parameter file, NAME.yaml")
+    ("parameters,p", po::value(&a.parameters)->multitoken(),
+     "names of parameters to fit, or none; and the node's parameter file, NAME.yaml")
     ("list", po::bool_switch(&a.list), "print the parameters of scene and force sensor with priors and bounds, and exit")
     ("prior", po::value(&a.priors)->composing(), "NAME=MEAN:SIGMA, in the parameter's unit")
     ("bounds", po::value(&a.bounds)->composing(), "NAME=LOW:HIGH, in the parameter's unit")

@@ -236,6 +236,7 @@ TEST(Calibration, LeavesOutSamplesWithoutEquilibrium) {
   Recording recording = SimulatedRecording().record(arm());
   const CalibrationResult expected = calibrate(arm(), kPairs, {}, {use(recording)}, {}, whiteNoise());
   for (size_t i : {7u, 120u, 301u}) recording.samples[i].pressures.setConstant(3e6);
+  recording.name = "arm, \"left\".csv";
   for (const auto& names : {std::vector<std::string>{}, {"youngs_modulus_pa"}}) {
     const CalibrationResult result =
         calibrate(arm(), kPairs, parametersOf(arm(), names), {use(recording)}, {}, whiteNoise());
@@ -247,6 +248,8 @@ TEST(Calibration, LeavesOutSamplesWithoutEquilibrium) {
     EXPECT_TRUE(fit.determined) << fit.verdict;
     EXPECT_NE(reportText(result).find("3 of 400 samples have no equilibrium and are left out"), std::string::npos)
         << reportText(result);
+    EXPECT_NE(residualTable(result, {use(recording)}).find("\n\"arm, \"\"left\"\".csv\",0.7,1,,,,,,,3000000,"),
+              std::string::npos);
   }
 }
 
@@ -323,8 +326,8 @@ TEST(Calibration, AGivenRegistrationIsHeld) {
   options.given = SimulatedRecording().registration();
   options.blocks = 2;
   const std::vector<CalibrationRecording> recordings{use(SimulatedRecording().record(truth()))};
-  const CalibrationResult result =
-      calibrate(arm(), kPairs, parametersOf(arm(), {"youngs_modulus_pa", "length_m", "chamber_pitch_radius_m"}), recordings, {}, options);
+  const std::vector<std::string> names{"youngs_modulus_pa", "length_m", "chamber_pitch_radius_m"};
+  const CalibrationResult result = calibrate(arm(), kPairs, parametersOf(arm(), names), recordings, {}, options);
   EXPECT_EQ(result.recordings[0].registration.X_AB.p, options.given->X_AB.p);
   EXPECT_EQ(result.recordings[0].verdict, "given");
   Scene known = truth();

@@ -59,7 +59,8 @@ def register(folder, name, told):
 
 
 def calibrate(folder, name, told):
-    return lambda out: [scene_of(folder, name)] + make_cases.paths_of(folder, name) + [
+    # With commas: calibrate takes bags without for recordings of their own.
+    return lambda out: [scene_of(folder, name), ",".join(make_cases.paths_of(folder, name))] + [
         "-p", "youngs_modulus_pa", "-q", "--blocks", "0", "-o", out] + parameters_of("calibrate", folder, told or name)
 
 
@@ -152,6 +153,11 @@ def modulus_as_plain(relative):
             return ""
         return "modulus %.0f +- %.0f instead of %.0f +- %.0f" % (modulus, error, right, its_error)
     return check
+
+
+def modulus_within_its_error(run):
+    modulus, error = modulus_of(run.text)
+    return "" if abs(modulus - 100e3) < 3 * error < 20e3 else "modulus %.0f +- %.0f instead of 100000" % (modulus, error)
 
 
 def modulus_is_true(run):
@@ -333,7 +339,7 @@ def cases(pressures, poses, late):
     for name in ("unturned", "random_orientation", "random_roll"):
         # The offset of the sensor is less well known without orientations, so that the modulus takes a part of the error.
         yield register, name, [status(0, 1), registered_as("plain", 2 * MANY)]
-        yield calibrate, name, [PASSED, modulus_as_plain(0.03)]
+        yield calibrate, name, [PASSED, modulus_within_its_error]
         yield estimate_wrench, name, [PASSED, free]
         yield replay, name, [PASSED, tracking_errors(poses - 5, poses), no_contact]
         # Nobody has said so: it is chosen, and said.
@@ -369,7 +375,7 @@ def few_lines(run):
 
 
 def read_or_refused(run):
-    fault = registered_as("plain", SAME)(run) if run.status == 0 else nothing_written(run) or status(2)(run)
+    fault = registered_as("plain", MANY)(run) if run.status == 0 else nothing_written(run) or status(2)(run)
     return fault or few_lines(run)
 
 
