@@ -7,12 +7,15 @@
 #include <list>
 #include <map>
 #include <stdexcept>
+#include <utility>
 
 #include "live_stiffness/checks.h"
 #include "parameter_reader.h"
 
 namespace live_stiffness {
 namespace {
+
+const ros::Duration kLongestPause(3600.0);  // in which the heart beats; bags of two days may be played together
 
 using Play = std::function<void(const rosbag::MessageInstance&)>;
 
@@ -31,20 +34,33 @@ Play anyType(void (BagListener::*use)(const topic_tools::ShapeShifter&), BagList
   };
 }
 
-// What to do with the messages of each topic.
-std::map<std::string, Play> playsOf(const BagTopics& topics, const InputParameters& parameters, BagListener& listener) {
-  std::map<std::string, Play> plays;
-  for (size_t channel = 0; channel < parameters.pressure_topics.size(); ++channel)
-    plays[withoutSlash(parameters.pressure_topics[channel])] = typed<sensor_msgs::FluidPressure>(
-        listener, [&listener, channel](const auto& message) { listener.onChannelPressure(message, channel); });
-  if (parameters.pressure_topics.empty()) plays[withoutSlash(topics.pressures)] = anyType(&BagListener::onPressures, listener);
-  if (parameters.tracker_tf_frame.empty()) plays[withoutSlash(topics.pose)] = anyType(&BagListener::onPose, listener);
+// What to do with the messages of a topic. rosbag gives those of one time in no certain order
+// (findings/bag_order_at_one_time.sh); here smaller ranks go first: channel by channel, the tracker, the wrench.
+struct Topic {
+  size_t rank = 0;
+  Play play;
+};
+
+std::map<std::string, Topic> topicsOf(const BagTopics& topics, const InputParameters& parameters, BagListener& listener) {
+  std::map<std::string, Topic> plays;
+  const size_t channels = parameters.pressure_topics.size();
+  for (size_t channel = 0; channel < channels; ++channel)
+    plays[withoutSlash(parameters.pressure_topics[channel])] = {
+        channel, typed<sensor_msgs::FluidPressure>(listener, [&listener, channel](const auto& message) {
+          listener.onChannelPressure(message, channel);
+        })};
+  if (channels == 0) plays[withoutSlash(topics.pressures)] = {0, anyType(&BagListener::onPressures, listener)};
+  if (parameters.tracker_tf_frame.empty())
+    plays[withoutSlash(topics.pose)] = {channels + 1, anyType(&BagListener::onPose, listener)};
   else
     for (const bool is_static : {true, false})
-      plays[is_static ? "tf_static" : "tf"] = typed<tf2_msgs::TFMessage>(
-          listener, [&listener, is_static](const auto& message) { listener.onTf(message, is_static); });
-  plays[withoutSlash(topics.wrench)] =
-      typed<geometry_msgs::WrenchStamped>(listener, [&listener](const auto& message) { listener.onWrench(message); });
+      plays[is_static ? "tf_static" : "tf"] = {
+          channels + (is_static ? 1 : 2), typed<tf2_msgs::TFMessage>(listener, [&listener, is_static](const auto& message) {
+            listener.onTf(message, is_static);
+          })};
+  plays[withoutSlash(topics.wrench)] = {
+      channels + 3,
+      typed<geometry_msgs::WrenchStamped>(listener, [&listener](const auto& message) { listener.onWrench(message); })};
   return plays;
 }
 
@@ -52,7 +68,7 @@ std::map<std::string, Play> playsOf(const BagTopics& topics, const InputParamete
 
 BagSpan playBags(const std::vector<std::string>& paths, const BagTopics& topics, const InputParameters& parameters,
                  double heartbeat, BagListener& listener, const std::function<void(long, long)>& progress) {
-  const std::map<std::string, Play> plays = playsOf(topics, parameters, listener);
+  const std::map<std::string, Topic> plays = topicsOf(topics, parameters, listener);
   std::string path = paths.empty() ? "" : paths.front();
   try {
     std::list<rosbag::Bag> bags;
@@ -70,18 +86,29 @@ BagSpan playBags(const std::vector<std::string>& paths, const BagTopics& topics,
     long done = 0;
     ros::Time::init();  // without a master
     ros::Time beat;
+    std::multimap<size_t, std::pair<const Play*, rosbag::MessageInstance>> together;  // of one time, by rank
+    const auto play_together = [&] {
+      for (const auto& [rank, message] : together) {
+        (*message.first)(message.second);
+        ++done;
+        if (progress) progress(done, total);
+      }
+      together.clear();
+    };
     for (const rosbag::MessageInstance& message : view) {
       const ros::Time now = message.getTime();
-      if (done == 0 || now < beat - ros::Duration(heartbeat)) beat = now;
+      if (!together.empty() && now != together.begin()->second.second.getTime()) play_together();
+      const bool is_first = beat.isZero() || now < beat - ros::Duration(heartbeat);
+      if (is_first || now > beat + kLongestPause) beat = now;
       for (; beat + ros::Duration(heartbeat) <= now; listener.onHeartbeat()) {
         beat += ros::Duration(heartbeat);
         ros::Time::setNow(beat);
       }
       ros::Time::setNow(now);
-      plays.at(withoutSlash(message.getTopic()))(message);
-      if (progress) progress(++done, total);
-      else ++done;
+      const Topic& topic = plays.at(withoutSlash(message.getTopic()));
+      together.emplace(topic.rank, std::make_pair(&topic.play, message));
     }
+    play_together();
     return total > 0 ? BagSpan{view.getBeginTime(), view.getEndTime()} : BagSpan{};
   } catch (const ConfigurationError&) {
     throw;  // from the listener
