@@ -16,7 +16,8 @@ YAML::Node loadParameterFile(const std::string& path) {
   } catch (const YAML::Exception& error) {
     throw ConfigurationError("parameters " + path, {std::string("not YAML: ") + error.what()});
   }
-  if (!values.IsMap()) throw ConfigurationError("parameters " + path, {"must be a mapping of keys to values, as rosparam dump writes"});
+  if (!values.IsMap())
+    throw ConfigurationError("parameters " + path, {"must be a mapping of keys to values, as rosparam dump writes"});
   return values.size() == 1 && values.begin()->second.IsMap() ? values.begin()->second : values;
 }
 

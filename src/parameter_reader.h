@@ -84,7 +84,8 @@ class ParameterReader {
     Field found;
     const bool is_good = convert(value, found);
     if (is_good) field = found;
-    else faults_.add(key + (" = " + textOf(value)) + ": must be " + wanted + (std::is_same_v<Field, double> ? hintOf(value) : ""));
+    else faults_.add(key + (" = " + textOf(value)) + ": must be " + wanted +
+                     (std::is_same_v<Field, double> ? hintOf(value) : ""));
     return is_good;
   }
   static bool convert(const YAML::Node& value, double& number);

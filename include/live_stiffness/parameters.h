@@ -48,7 +48,7 @@ inline constexpr int kMaxChannels = 1024;
 inline const NumbersParameter kChannelOfChamber{
     "channel_of_chamber", {}, {0, kMaxChannels - 1},
     "For each chamber of the scene, base to tip, the channel (from 0) that feeds it: [0, 0, 1, 1, 2, 2] for three pairs. "
-    "Empty: one channel for each chamber."};
+    "Other channels are spare. Empty: one channel for each chamber."};
 inline constexpr NumberParameter kPressureTimeout{
     "pressure_timeout_s", 0.5, Range::positive(),
     "Pressures older than this are stale: diagnostics ERROR, estimates marked stale."};
@@ -63,8 +63,12 @@ inline const ChoiceParameter kTrackerMeasures{
     "with five degrees of freedom). Empty: found from the data, and said."};
 inline constexpr FrameParameter kTrackerFrame{
     "tracker_frame", "aurora",
-    "frame_id of the poses; a leading slash, an empty frame_id and sensor_frame are accepted too."};
-inline constexpr FrameParameter kSensorFrame{"sensor_frame", "aurora_tip", "The tracker's name of its sensor."};
+    "frame_id of the poses; a leading slash, an empty frame_id and sensor_frame are accepted too. Poses in other frames are "
+    "those of other tools, and left out."};
+inline constexpr FrameParameter kSensorFrame{
+    "sensor_frame", "aurora_tip",
+    "The tracker's name of the sensor on the tip. Where a message names its sensor (child_frame_id), others are left out. "
+    "Empty: the first one seen."};
 inline constexpr FrameParameter kTrackerTfFrame{
     "aurora_tf_frame", "",
     "Look up this frame in tf (from tracker_frame) instead of listening to the topic. Empty: topic."};
@@ -73,8 +77,9 @@ inline constexpr NumberParameter kPoseTimeout{
     "Poses older than this, or the same pose repeated for this long, are reported: diagnostics WARN."};
 inline constexpr FileParameter kRegistrationFile{
     "registration_file", "",
-    "Where the base is in the tracker's frame and the sensor on the tip, and how late the tracker is (YAML). Empty: both "
-    "identity, not late. The service ~register finds all but the delay, and writes such a file."};
+    "Where the base is in the tracker's frame and the sensor on the tip, and how late the tracker is (YAML). Empty: not known "
+    "until ~register finds it, and until then there is no tracking error, no contact and no transform from tracker to base. "
+    "~register finds all but the delay, and writes such a file."};
 inline constexpr NumberParameter kRegistrationBuffer{
     "registration_buffer_s", 120.0, {1.0, 3600.0}, "How much of the newest past ~register can use."};
 

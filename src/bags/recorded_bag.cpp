@@ -71,7 +71,8 @@ class Tracks : public BagListener {
   void keep(const std::optional<Parsed<Pose>>& read) {
     constexpr double kLeast = 1e-9;  // s; two messages may arrive at one time
     if (read)
-      poses[read->stamp.toSec()] = {read->value, tracker_input.isRepeated() ? std::max(kLeast, tracker_input.unchangedFor()) : 0.0};
+      poses[read->stamp.toSec()] = {
+          read->value, tracker_input.isRepeated() ? std::max(kLeast, tracker_input.unchangedFor()) : 0.0};
   }
 };
 
@@ -122,7 +123,8 @@ Recording loadRecordedBags(const std::vector<std::string>& paths, const BagTopic
     recording.samples.push_back(std::move(sample));
   }
   std::vector<std::string>& warnings = recording.warnings;
-  for (const auto& lines : {tracks.pressure_input.status().report(), tracks.tracker_input.report(), tracks.wrench_status.report()})
+  for (const auto& lines :
+       {tracks.pressure_input.status().report(), tracks.tracker_input.report(), tracks.wrench_status.report()})
     warnings.insert(warnings.end(), lines.begin(), lines.end());
   if (left_out > 0)
     warnings.push_back(std::to_string(left_out) + " poses left out: no usable pressures in the " +

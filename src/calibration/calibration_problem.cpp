@@ -110,7 +110,9 @@ CalibrationUnknowns CalibrationProblem::start(const std::string& advice) {
   for (size_t n = 0; n < evaluators_.size(); ++n) {
     const size_t index = registrationIndex(n);
     if (index == unknowns.registrations.size()) {
-      const Registration start = options_.given ? *options_.given : fitRegistration(X_BT[index], X_AS[index]).registration;
+      const Registration start =
+          options_.given ? *options_.given
+                         : fitRegistration(X_BT[index], X_AS[index], evaluators_[n]->measures()).registration;
       for (size_t m = n; m < evaluators_.size(); ++m) evaluators_[m]->startFrom(start);  // later ones may get their own
       unknowns.registrations.emplace_back() << Vector3::Zero(), start.X_AB.p, start.X_TS.p, Vector3::Zero();
     }

@@ -71,6 +71,10 @@ bool TipWrenchEstimator::setKnownWrench(const Wrench& known) {
   return true;
 }
 
+void TipWrenchEstimator::setMeasures(TrackerMeasures measures) {
+  filter_->setMeasuresRotation(measures != TrackerMeasures::kPosition);
+}
+
 std::string TipWrenchEstimator::statusText() const {
   switch (code_) {
     case TipWrenchCode::kOk: return "";

@@ -157,8 +157,9 @@ double TipWrenchFilter::moveBy(const State& step, State& x, StiffnessSolution& s
 bool TipWrenchFilter::correct(const Pose& measured, const Belief& prior, bool learn_scale, Correction& result) {
   const int size = static_cast<int>(prior.x.size());
   Vector6 noise;
+  constexpr double kNotMeasured = 1e3;  // rad
   noise << Vector3::Constant(std::pow(options_.position_noise, 2)),
-      Vector3::Constant(std::pow(options_.rotation_noise, 2));
+      Vector3::Constant(std::pow(measures_rotation_ ? options_.rotation_noise : kNotMeasured, 2));
   State x = prior.x;
   if (!solveAt(x, result.solution)) return false;
   double weight = 1.0;

@@ -39,6 +39,9 @@ class TipWrenchFilter {
   // T, base axes. The model takes the believed scale; allocates when that moved.
   void setInputs(PressuresRef effective, const Wrench& known);
 
+  // False: the rotation of poses means nothing from now on.
+  void setMeasuresRotation(bool measures) { measures_rotation_ = measures; }
+
   // The belief `elapsed` s later, pressures having changed by pressure_change (Pa, 2-norm over chambers).
   Belief predicted(double elapsed, double pressure_change, bool contact) const;
   // Equilibrium at a state; false: none, see status().
@@ -87,6 +90,7 @@ class TipWrenchFilter {
   std::unique_ptr<Solver> scaled_, stiffer_;  // at the scale, and a bit stiffer, for the derivative by it; none if it stays 1
   double log_scale_ = 0.0;                    // of scaled_
   Belief belief_;
+  bool measures_rotation_ = true;
   Pressures effective_;
   Wrench known_ = Wrench::Zero();
   SolveStatus status_;

@@ -114,6 +114,8 @@ int main(int argc, char** argv) {
     const ChannelMap channels = reader.channels(recording, scene);
     const std::vector<Pressures> gauge = gaugePressures(recording);
     TipWrenchEstimator estimator(scene, parameters.model, parameters.contact);
+    const TrackerMeasures measures = recording.measures.value_or(TrackerMeasures::kPose);
+    estimator.setMeasures(measures);
     StiffnessWorkspace workspace = estimator.model().makeWorkspace();
     const Pose at_rest = estimator.model().solve(Pressures::Zero(scene.chamberCount()), Wrench::Zero(), workspace).X_BT;
     std::ostringstream out;
@@ -126,7 +128,7 @@ int main(int argc, char** argv) {
       const RecordedSample& sample = recording.samples[i];
       const Pose expected = estimator.estimate() != nullptr ? estimator.estimate()->X_BT : at_rest;
       const Pose X_BT = registration.tipPose(
-          completedPose(sample.tipPose(), registration.sensorPose(expected), recording.measures.value_or(TrackerMeasures::kPose)));
+          completedPose(sample.tipPose(), registration.sensorPose(expected), measures));
       const Pressures chambers = channels.expand(gauge[i]);
       const auto start = std::chrono::steady_clock::now();
       if (sample.unchanged_for > 0.0) estimator.predict(chambers, sample.time);  // nothing was measured

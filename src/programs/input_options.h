@@ -16,8 +16,8 @@ namespace live_stiffness {
 
 class InputOptions {
  public:
-  // Of all parameters of a struct that has forEachParameter(). Options are called like the keys with dashes, and hold texts, which
-  // are read just as the parameters are.
+  // Of all parameters of a struct that has forEachParameter(). Options are called like the keys with dashes, and hold texts,
+  // which are read just as the parameters are.
   template <class Parameters, class ForEach>
   void add(boost::program_options::options_description& options, ForEach for_each) {
     Parameters standard;

@@ -29,7 +29,8 @@ class RecordingReader {
   // takes_file: --parameters is a file with the parameters of the node.
   void addOptionsTo(boost::program_options::options_description& options, bool takes_file = true) {
     if (takes_file) options_.addFile(options);
-    options_.add<InputParameters>(options, [](auto& parameters, auto visit) { InputParameters::forEachParameter(parameters, visit); });
+    options_.add<InputParameters>(
+        options, [](auto& parameters, auto visit) { InputParameters::forEachParameter(parameters, visit); });
 #ifdef LIVE_STIFFNESS_WITH_BAGS
     addOptions(options, topics_);
 #endif
@@ -49,8 +50,8 @@ class RecordingReader {
   void configure(const boost::program_options::variables_map& given) { configure(given, InputOptions::file(given)); }
   const YAML::Node& values() const { return values_; }  // all that was given
 
-  // A recording: a CSV file, a bag, or several bags, as a list or with commas between. scene: of the robot, for what is plausible. Prints the
-  // recording's warnings on standard error. Throws ConfigurationError if it cannot be read.
+  // A recording: a CSV file, a bag, or several bags, as a list or with commas between. scene: of the robot, for what is
+  // plausible. Prints the recording's warnings on standard error. Throws ConfigurationError if it cannot be read.
   Recording load(const std::string& path, const Scene* scene = nullptr) const {
     const bool is_list = !std::filesystem::exists(path) && path.find(',') != std::string::npos;
     return load(is_list ? splitText(path, ',') : std::vector<std::string>{path}, scene);
@@ -81,7 +82,8 @@ class RecordingReader {
       walk(scene, [&](int, const Segment& segment) {
         is_even = is_even && segment.section.chambers.count() % (scene.chamberCount() / count) == 0;
       }, [](const Link&) {});
-    if (!is_even) throw ConfigurationError("channels", {fault + "say which feeds which, such as --channel-of-chamber 0 0 1 1 2 2"});
+    if (!is_even)
+      throw ConfigurationError("channels", {fault + "say which feeds which, such as --channel-of-chamber 0 0 1 1 2 2"});
     return ChannelMap::even(count, scene.chamberCount());
   }
 

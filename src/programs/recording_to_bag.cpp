@@ -28,14 +28,15 @@ void writeBag(const Recording& recording, const std::vector<Pressures>& channels
     const ros::Time stamp = bagTime(sample.time - start);
     bag.write(topics.pressures, stamp, toPressures(channels[i], stamp));
     bag.write(topics.pose, stamp + kNextMessage, toPoseStamped(sample.tipPose(), stamp, kTrackerFrame.standard));
-    if (sample.tip_wrench) bag.write(topics.wrench, stamp + kNextMessage, toWrenchStamped(*sample.tip_wrench, stamp, kForceSensorFrame));
+    if (sample.tip_wrench)
+      bag.write(topics.wrench, stamp + kNextMessage, toWrenchStamped(*sample.tip_wrench, stamp, kForceSensorFrame));
     progress.update(static_cast<long>(i) + 1);
   }
   bag.finish();
 }
 
-// Fits where base and sensor are from the whole recording, and says how well the model then agrees.
-void registerRecording(const Recording& recording, const std::vector<Pressures>& channels, const RecordingReader& reader,
+// Fits where base and sensor are from the whole recording, and says how well the model then agrees. False: not determined.
+bool registerRecording(const Recording& recording, const std::vector<Pressures>& channels, const RecordingReader& reader,
                        const std::string& scene_path, const std::string& registration_path) {
   const StiffnessModel model(loadSceneFile(scene_path), ModelOptions());
   const ChannelMap map = reader.channels(recording, model.scene());
@@ -51,18 +52,19 @@ void registerRecording(const Recording& recording, const std::vector<Pressures>&
     measured.push_back(recording.samples[i].tipPose());
     progress.update(static_cast<long>(i) + 1);
   }
-  const RegistrationFit fit = fitRegistration(predicted, measured);
+  const RegistrationFit fit = fitRegistration(predicted, measured, recording.measures);
   const std::string error = "tip error after registration: " + millimetreText(fit.position);
   std::cout << error << "\n";
   if (!fit.determined()) std::cout << fit.advice() << '\n';
   saveRegistrationFile(registration_path, fit.registration,
                        "Fitted by recording_to_bag to " + recording.name + " with scene " + scene_path + ":\n" + error);
+  return fit.determined();
 }
 
 const char* const kHelp =
     "recording_to_bag RECORDING.csv OUT.bag [--scene SCENE.yaml --registration OUT.yaml]\n\n"
     "Topics: chamber_pressures (gauge: less the mean of the first 0.5 s when absolute), aurora_pose,\n"
-    "tip_force_torque when there is a force sensor.\n\n";
+    "tip_force_torque when there is a force sensor. Exit status 1: all is written, but the registration is not determined.\n\n";
 
 }  // namespace
 
@@ -84,7 +86,8 @@ int main(int argc, char** argv) {
     const Recording recording = reader.load(recording_path);
     const std::vector<Pressures> channels = gaugePressures(recording);
     writeBag(recording, channels, bag_path);
-    if (!scene_path.empty()) registerRecording(recording, channels, reader, scene_path, registration_path);
-    return kExitOk;
+    const bool is_good =
+        scene_path.empty() || registerRecording(recording, channels, reader, scene_path, registration_path);
+    return is_good ? kExitOk : kExitPartly;
   });
 }

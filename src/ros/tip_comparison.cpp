@@ -40,6 +40,7 @@ void TipComparison::compare(const Parsed<Pose>& X_AS, const KnownState& state) {
 void TipComparison::estimateWrench(const KnownState& state, const Pose* measured_X_BT, const ros::Time& stamp) {
   const Wrench& known = state.solved_wrench;
   filter_->setKnownWrench(known);
+  filter_->setMeasures(tracker_.measures());
   const bool updated = measured_X_BT != nullptr ? filter_->update(state.then.pressures, *measured_X_BT, stamp.toSec())
                                                 : filter_->predict(state.then.pressures, stamp.toSec());
   filter_error_ = filter_->statusText();

@@ -232,7 +232,8 @@ TEST_F(BagReplay, MarksEstimatesStaleWhilePressuresAreSilent) {
   for (int i = 0; i < 40; ++i) record(i / kRate);
   for (int i = 40; i < 240; ++i) {  // poses go on
     const ros::Time seen = stamp(i / kRate);
-    bag_.write("/aurora_pose", seen, toPoseStamped({expSo3(0.1 * Vector3::UnitX()), Vector3(0.2, 1e-3 * i, 0.3)}, seen, "aurora"));
+    const Pose X_AS{expSo3(0.1 * Vector3::UnitX()), Vector3(0.2, 1e-3 * i, 0.3)};
+    bag_.write("/aurora_pose", seen, toPoseStamped(X_AS, seen, "aurora"));
   }
   const ReplayReport report = replay();
   EXPECT_NEAR(static_cast<double>(report.stale_estimates), 4.0, 1.0) << "one a heartbeat";
@@ -273,8 +274,8 @@ TEST_F(BagReplay, TakesTheSensorFromTfAndLeavesOtherToolsAlone) {
     const Pose X_BT = model_.solve(at(i / kRate), Wrench::Zero(), workspace).X_BT;
     const ros::Time seen = stamp(i / kRate + 1e-3);
     tf2_msgs::TFMessage tf;
-    for (const char* child : {"tool_1", "aurora_tip"})
-      tf.transforms.push_back(toTransform(child[0] == 't' ? parameters_.registration.sensorPose(X_BT) : Pose(), seen, "aurora", child));
+    tf.transforms = {toTransform(parameters_.registration.sensorPose(X_BT), seen, "aurora", "tool_1"),
+                     toTransform(Pose(), seen, "aurora", "aurora_tip")};
     bag_.write("/tf", seen, tf);
     for (const auto& transform : tf.transforms) bag_.write("/aurora_pose", seen, transform);
   }

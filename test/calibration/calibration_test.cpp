@@ -199,7 +199,7 @@ TEST(Calibration, RecoversModuliFromATableOfCompliances) {
 TEST(Calibration, RefusesWhatDoesNotFit) {
   EXPECT_THROW(sceneParameter("gent_limit", arm(), kPairs), ConfigurationError);
   EXPECT_THROW(sceneParameter("colour", arm(), kPairs), ConfigurationError);
-  EXPECT_THROW(use(Recording{"short", std::nullopt, false, {RecordedSample()}, {}}), ConfigurationError);
+  EXPECT_THROW(use(Recording{"short", std::nullopt, "", false, {RecordedSample()}, {}}), ConfigurationError);
   Scene without = arm();
   segmentOf(without, 0).section.youngs_modulus = 1e3;  // so soft that its own pressures burst it
   EXPECT_THROW(calibrate(without, kPairs, {}, {use(SimulatedRecording().record(arm()))}, {}, whiteNoise()),

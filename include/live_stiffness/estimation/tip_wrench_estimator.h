@@ -11,6 +11,7 @@
 #include <string>
 
 #include "live_stiffness/compliance/stiffness_model.h"
+#include "live_stiffness/estimation/tracker_measures.h"
 #include "live_stiffness/parameters.h"
 
 namespace live_stiffness {
@@ -95,7 +96,9 @@ class TipWrenchEstimator {
 
   // Known dead wrench at T (base axes; weight of a tool, say), from the next sample on. Refused (false) unless finite.
   bool setKnownWrench(const Wrench& known);
-  // Forgets everything but options, scene and known wrench.
+  // What the tracker measures, from the next sample on; the rest of a pose must come from completedPose().
+  void setMeasures(TrackerMeasures measures);
+  // Forgets everything but options, scene, known wrench and what is measured.
   void reset();
 
   // The last good estimate; nullptr before the first.
