@@ -29,7 +29,8 @@ class InputOptions {
     const std::string name = nameOf(parameter.key), standard = standardText(parameter);
     options_[name] = {parameter.key, is_list};
     const std::string text = parameter.meaning + (standard.empty() ? "" : " Default: " + standard + ".");
-    options.add_options()(name.c_str(), boost::program_options::value<std::vector<std::string>>()->multitoken(), text.c_str());
+    auto* words = boost::program_options::value<std::vector<std::string>>();
+    options.add_options()(name.c_str(), is_list ? words->multitoken() : words, text.c_str());
   }
   // Also takes what the node was given, from a file.
   void addFile(boost::program_options::options_description& options) {

@@ -7,6 +7,7 @@ that the order between topics is certain. Compared with `replay`: the sequence o
 repeats), tracking errors, contact, and the counts of messages. Times of arrival and of solving are not compared."""
 import collections
 import pathlib
+import re
 import signal
 import subprocess
 import sys
@@ -40,6 +41,7 @@ class Node:
         self.heard = {name: [] for name in OUTPUTS}
         self.said = ()          # of the newest estimate
         self.reports = 0        # diagnostics
+        self.words = set()      # of all of them
         self.clock = None       # the node's, of its newest report
         self.counts = {}        # of its newest report: (entry, key): text
         self.subscribers = [rospy.Subscriber("%s/%s" % (NODE, name), kind, self.hear, name, queue_size=None, tcp_nodelay=True)
@@ -60,6 +62,7 @@ class Node:
             self.reports += 1
             self.clock = message.header.stamp
             for status in message.status:
+                self.words.add(" ".join([status.message] + ["%s: %s" % (pair.key, pair.value) for pair in status.values]))
                 entry = status.name.split(": ")[-1]
                 if entry in COUNTED:
                     self.counts.update({(entry, pair.key): pair.value for pair in status.values if "rate" not in pair.key})
@@ -290,6 +293,8 @@ def compare(programs, folder, name, case):
     different += sequence_differences("contact", node.heard["tip_contact"], heard["tip_contact"], contact_difference)
     if not failure:
         different += count_differences(node, counts)
+    different += ["/diagnostics does not say %s, as docs/troubleshooting.md has it" % pattern
+                  for pattern in make_cases.documented(name, 1) if not any(re.search(pattern, words) for words in node.words)]
     cells = [played, len(live), len(node.heard["tracking_error"]), len(node.heard["tip_contact"]), without_effect, seconds]
     return cells, different
 

@@ -250,6 +250,18 @@ def is_disk(event):
     return event.message.header.frame_id == "reference_disk" or getattr(event.message, "child_frame_id", "") == "reference_disk"
 
 
+def documented(case, place):
+    """What docs/troubleshooting.md says of a case: quoted texts, in which ... stands for anything, as patterns. place: 1 of the
+    node, 2 of the programs."""
+    page = (pathlib.Path(__file__).parents[2] / "docs/troubleshooting.md").read_text()
+    patterns = []
+    for line in page.split("## What is judged, live and offline")[1].split("\n## ")[0].splitlines():
+        cells = line.split(" | ")
+        if len(cells) == 3 and "`%s`" % case in cells[0]:
+            patterns += [".*".join(map(re.escape, text.split("..."))) for text in re.findall(r"`([^`]+)`", cells[place])]
+    return patterns
+
+
 VALVES = {"pressure_topics": ["valve_1", "valve_2", "valve_3"], "pressure_reference": "absolute"}
 WHOLE = 1e9  # s
 TWO_SEGMENTS = "two_segments.yaml"  # the scene_file of these is in DIR

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """offline_cases.py PROGRAMS DIR [WORD]: what the programs without a master make of the inputs of make_cases.py, each beside what
 is right; only those whose line has the WORD. Prints a line for each, and all failures again at the end."""
+import collections
 import csv
 import math
 import os
@@ -389,7 +390,7 @@ def main(programs, folder, word=""):
     with rosbag.Bag(str(folder / "plain.bag")) as plain, rosbag.Bag(str(folder / "overtaken.bag")) as overtaken:
         pressures, poses = (plain.get_message_count(topic) for topic in (make_cases.PRESSURES, make_cases.POSE))
         late = overtaken.get_message_count(make_cases.PRESSURES) - pressures
-    failures, done = [], 0
+    failures, done, said = [], 0, collections.defaultdict(str)
     for command, name, right, *told in cases(pressures, poses, late):
         program, output = OUTPUT[command]
         title = "%s %s%s" % (program, name, ".csv" if command is register_table else " as plain" if told else "")
@@ -400,6 +401,7 @@ def main(programs, folder, word=""):
             run = Run(programs, folder, program, name, command(folder, name, told[0] if told else None), output)
             faults = [fault for fault in (check(run) for check in right) if fault]
             words = run.last_words()
+            said[name + (".csv" if command is register_table else "")] += run.text
         except subprocess.TimeoutExpired:
             faults, words = ["not done after 120 s"], ""
         done += 1
@@ -407,6 +409,11 @@ def main(programs, folder, word=""):
         print(line, flush=True)
         if faults:
             failures.append("%s\n    %s" % (line, words[:300]))
+    for name, text in said.items():
+        for pattern in make_cases.documented(name, 2):
+            done += 1
+            if not re.search(pattern, text):
+                failures.append("%s does not say %s, as docs/troubleshooting.md has it" % (name, pattern))
     print("\n".join(["", "failed:"] + failures if failures else []))
     print("%d cases, %d failed" % (done, len(failures)))
     return 1 if failures else 0
