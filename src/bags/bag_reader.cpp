@@ -98,8 +98,12 @@ BagSpan playBags(const std::vector<std::string>& paths, const BagTopics& topics,
     for (const rosbag::MessageInstance& message : view) {
       const ros::Time now = message.getTime();
       if (!together.empty() && now != together.begin()->second.second.getTime()) play_together();
-      const bool is_first = beat.isZero() || now < beat - ros::Duration(heartbeat);
-      if (is_first || now > beat + kLongestPause) beat = now;
+      if (beat.isZero() || now + ros::Duration(heartbeat) < beat) beat = now;
+      if (now > beat + kLongestPause) {
+        ros::Time::setNow(beat + kLongestPause);
+        listener.onHeartbeat();
+        beat = now;
+      }
       for (; beat + ros::Duration(heartbeat) <= now; listener.onHeartbeat()) {
         beat += ros::Duration(heartbeat);
         ros::Time::setNow(beat);
@@ -114,7 +118,7 @@ BagSpan playBags(const std::vector<std::string>& paths, const BagTopics& topics,
     throw;  // from the listener
   } catch (const std::exception& error) {
     throw std::runtime_error("bag " + path + ": cannot be read: " + error.what() + "; if it was cut off, `rosbag reindex " +
-                             path + "` recovers the complete part");
+                             (paths.size() > 1 ? "FILE" : path) + "` recovers the complete part");
   }
 }
 

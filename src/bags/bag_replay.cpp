@@ -53,7 +53,8 @@ class Replay : public BagListener, private EstimateOutput {
       warnings.insert(warnings.end(), lines.begin(), lines.end());
     for (const auto& [what, count] : foreign_)
       warnings.push_back(std::to_string(count) + " messages on " + what + ": not read");
-    if (!updater_.pressures().doubt().empty()) warnings.push_back(updater_.pressures().doubt());
+    for (const std::string& text : {updater_.pressures().firstDoubt(), updater_.pressures().firstSilence()})
+      if (!text.empty()) warnings.push_back(text);
     if (!parameters_.is_registered)
       warnings.push_back("not registered: no tracking error and no contact; register_recording makes a file for --registration");
     report_.failures = updater_.failures();

@@ -45,13 +45,14 @@ class Tracks : public BagListener {
     tracker_input.status().checkClock();
   }
   void onForeign(const std::string& topic, const std::string& type) override {
-    wrench_status.reject(topic + " has messages of type " + type);
+    ++foreign[topic + " of type " + type];
   }
 
   std::map<double, Pressures> pressures;  // of channels; empty: not known from then on
   std::map<double, Seen> poses;
   std::map<double, Wrench> wrenches;
   std::string wrench_frame;
+  std::map<std::string, long> foreign;  // messages of a type that nothing reads
 
  private:
   const InputParameters& parameters_;
@@ -126,6 +127,9 @@ Recording loadRecordedBags(const std::vector<std::string>& paths, const BagTopic
   for (const auto& lines :
        {tracks.pressure_input.status().report(), tracks.tracker_input.report(), tracks.wrench_status.report()})
     warnings.insert(warnings.end(), lines.begin(), lines.end());
+  for (const auto& [what, count] : tracks.foreign)
+    warnings.push_back(std::to_string(count) + " messages on " + what + ": not read");
+  if (!tracks.pressure_input.firstSilence().empty()) warnings.push_back(tracks.pressure_input.firstSilence());
   if (left_out > 0)
     warnings.push_back(std::to_string(left_out) + " poses left out: no usable pressures in the " +
                        numberText(parameters.pressure_timeout) + " s before them");

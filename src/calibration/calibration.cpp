@@ -85,9 +85,9 @@ void checkSizes(const Scene& scene, const ChannelMap& channels, const std::vecto
     throw ConfigurationError("channel map", {"feeds " + std::to_string(channels.chamberCount()) + " chambers: must be the "
                                              "scene's " + std::to_string(scene.chamberCount())});
   for (const CalibrationRecording& data : recordings)
-    if (data.recording.channelCount() != channels.channelCount())
+    if (data.recording.channelCount() < channels.channelCount())
       throw ConfigurationError(data.recording.name,
-                               {std::to_string(data.recording.channelCount()) + " pressure channels: must be " +
+                               {std::to_string(data.recording.channelCount()) + " pressure channels: must be at least " +
                                 std::to_string(channels.channelCount()) + ", as the channel map has"});
   for (const ComplianceRow& row : rows)
     if (row.pressures.size() != scene.chamberCount())

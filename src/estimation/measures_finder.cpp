@@ -23,6 +23,7 @@ void MeasuresFinder::add(const Pose& X_AS) {
   farthest_ = std::max(farthest_, (X_AS.p - first_.p).norm());
   if (count_ > 0) {
     const Matrix3 untilted = completedPose(X_AS, last_, TrackerMeasures::kPositionAndAxis).R;  // the last roll, the new axis
+    moves_.push_back((X_AS.p - last_.p).norm());
     tilts_.push_back(std::acos(std::clamp(last_.R.col(2).dot(X_AS.R.col(2)), -1.0, 1.0)));
     rolls_.push_back(logSo3(untilted.transpose() * X_AS.R).norm());
   }
@@ -33,6 +34,7 @@ void MeasuresFinder::add(const Pose& X_AS) {
 std::optional<TrackerMeasures> MeasuresFinder::judge() const {
   const double tilt = quantile(tilts_, 0.5), roll = quantile(rolls_, 0.5);
   if (largest_turn_ < kStill) return farthest_ > kFar ? std::optional(TrackerMeasures::kPosition) : std::nullopt;
+  if (quantile(moves_, 0.5) > kFar) return std::nullopt;  // too fast to judge
   if (tilt > kJump) return TrackerMeasures::kPosition;
   if (tilt < kSteady && roll > kJump) return TrackerMeasures::kPositionAndAxis;
   return std::nullopt;

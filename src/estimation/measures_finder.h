@@ -22,7 +22,7 @@ class MeasuresFinder {
   Pose first_, last_;
   double largest_turn_ = 0.0;      // from the first orientation, rad
   double farthest_ = 0.0;          // from the first position, m
-  std::vector<double> tilts_, rolls_;  // of the z axis and about it, from pose to pose, rad
+  std::vector<double> moves_, tilts_, rolls_;  // from pose to pose: of the position, m; of the z axis and about it, rad
   long count_ = 0;
   std::optional<TrackerMeasures> found_;
 };

@@ -220,8 +220,12 @@ int run(Arguments& a, const po::variables_map& given, const std::string& command
   std::vector<CalibrationRecording> recordings;
   for (const std::string& path : a.recordings) {
     Recording recording = withTrackerDelay(a.reader.load(path, &scene), a.tracker_delay);
-    if (*loads != LoadedSamples::kIgnore)
-      options.force_sensor = a.force_sensor.mountFor(recording.wrench_frame, a.reader.parameters().frames);
+    if (*loads != LoadedSamples::kIgnore) {
+      const ForceSensorMount mount = a.force_sensor.mountFor(recording.wrench_frame, a.reader.parameters().frames);
+      if (!recordings.empty() && mount.in_base_axes != options.force_sensor.in_base_axes)
+        throw ConfigurationError("recordings", {"wrenches are in base axes and in the sensor's: fit them one by one"});
+      options.force_sensor = mount;
+    }
     recordings.emplace_back(std::move(recording), samples, *loads);
   }
   const ChannelMap channels = channelsFor(a, recordings, scene);

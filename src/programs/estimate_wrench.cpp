@@ -10,6 +10,7 @@
 
 #include "command_line.h"
 #include "force_sensor_options.h"
+#include "calibration/base_sensor.h"
 #include "calibration/calibration.h"
 #include "contact_score.h"
 #include "estimation/tracker_delay.h"
@@ -109,7 +110,7 @@ int main(int argc, char** argv) {
     const Recording recorded = reader.load(recording_paths, &scene);
     const ForceSensorMount mount = force_sensor.mountFor(recorded.wrench_frame, reader.parameters().frames);
     const Registration registration = loadRegistrationFile(registration_path);
-    const Recording recording = withTrackerDelay(recorded, registration.tracker_delay);
+    const Recording recording = relativeToBase(withTrackerDelay(recorded, registration.tracker_delay));
     const ForceReadings readings(recording);
     const ChannelMap channels = reader.channels(recording, scene);
     const std::vector<Pressures> gauge = gaugePressures(recording);

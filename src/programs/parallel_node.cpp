@@ -60,7 +60,8 @@ ParallelParameters loadParallelParameters(const ros::NodeHandle& private_node) {
   ParameterReader read(privateParameters(private_node), faults);
   ParallelParameters parameters;
   ParallelParameters::forEachParameter(parameters, read);
-  read.file(kSceneFile, loadParallelSceneFile, parameters.scene, "must be the path of a file");
+  read.file(kSceneFile, loadParallelSceneFile, parameters.scene,
+            "must be the path of a scene; launch files take it as scene:=FILE");
   warnOfUnknown(read.unknown(), "parallel_node");
   faults.checkAll(parameters);
   checkFrames(parameters.frames, kPlatformFrame, faults);

@@ -49,7 +49,7 @@ class ParallelRig {
     FaultList faults("parameters of " + private_node.getNamespace(), "~");
     ParameterReader read(privateParameters(private_node), faults);
     ParallelScene scene;
-    read.file(kSceneFile, loadParallelSceneFile, scene, "must be the path of a file");
+    read.file(kSceneFile, loadParallelSceneFile, scene, "must be the path of a scene; launch files take it as scene:=FILE");
     Motion::forEachParameter(motion, read);
     warnOfUnknown(read.unknown(), "parallel_rig");
     faults.checkAll(motion);

@@ -11,6 +11,7 @@
 
 #include "csv_table.h"
 #include "estimation/input_parameters.h"
+#include "estimation/measures_finder.h"
 #include "estimation/pressure_levels.h"
 #include "input_options.h"
 #include "live_stiffness/checks.h"
@@ -39,6 +40,7 @@ class RecordingReader {
   InputOptions& options() { return options_; }
   // To be called first. file: of parameters; empty: none. Throws ConfigurationError with every fault.
   void configure(const boost::program_options::variables_map& given, const std::string& file) {
+    given_ = given;
     values_ = options_.values(given, file);
     FaultList faults("options");
     ParameterReader read(values_, faults);
@@ -59,6 +61,7 @@ class RecordingReader {
   Recording load(const std::vector<std::string>& paths, const Scene* scene) const {
     Recording recording = read(paths, scene);
     if (!parameters_.tracker_measures.empty()) recording.measures = trackerMeasuresNamed(parameters_.tracker_measures);
+    else if (!recording.measures) findMeasures(recording);
     for (const std::string& warning : recording.warnings) std::cerr << recording.name << ": " << warning << '\n';
     return recording;
   }
@@ -77,7 +80,7 @@ class RecordingReader {
         throw ConfigurationError("channel_of_chamber", {fault + "must be at least " + std::to_string(map.channelCount())});
       return map;
     }
-    bool is_even = count > 0 && scene.chamberCount() % count == 0;
+    bool is_even = count > 0 && scene.chamberCount() >= count && scene.chamberCount() % count == 0;
     if (is_even)
       walk(scene, [&](int, const Segment& segment) {
         is_even = is_even && segment.section.chambers.count() % (scene.chamberCount() / count) == 0;
@@ -88,6 +91,15 @@ class RecordingReader {
   }
 
  private:
+  static void findMeasures(Recording& recording) {
+    MeasuresFinder finder;
+    for (const RecordedSample& sample : recording.samples)
+      if (sample.unchanged_for == 0.0) finder.add(sample.tipPose());
+    recording.measures = finder.found();
+    if (recording.measures)
+      recording.warnings.push_back("the tracker measures " + trackerMeasuresName(*recording.measures) +
+                                   " only, by its data; --tracker-measures pose if it does not");
+  }
   Recording read(const std::vector<std::string>& paths, const Scene* scene) const {
     const std::string& path = paths.front();
 #ifdef LIVE_STIFFNESS_WITH_BAGS
@@ -96,11 +108,16 @@ class RecordingReader {
     if (std::filesystem::path(path).extension() == ".bag")
       throw ConfigurationError("recording " + path, {"this build reads no bags: build it with ROS (-DWITH_ROS=ON)"});
 #endif
+    for (const char* option : {"pressure-unit", "pressure-reference", "atmospheric-pressure-pa", "position-unit"})
+      if (given_.count(option) > 0)
+        throw ConfigurationError("options", {std::string("--") + option + " is for bags: the columns of a CSV recording are " +
+                                             "named with their unit, such as pressure_1_kpa and tip_x_mm"});
     if (paths.size() > 1) throw ConfigurationError("recording " + path, {"only bags can be parts of one recording"});
     return loadRecording(path, scene != nullptr ? std::optional(fullRange(*scene)) : std::nullopt);
   }
 
   InputOptions options_;
+  boost::program_options::variables_map given_;
   YAML::Node values_;
   InputParameters parameters_;
 #ifdef LIVE_STIFFNESS_WITH_BAGS

@@ -6,12 +6,13 @@
 #include "live_stiffness/compliance/stiffness_model.h"
 #include "live_stiffness/estimation/recording.h"
 #include "live_stiffness/estimation/registration_fit.h"
-#include "live_stiffness/rod/scene_file.h"
+#include "estimation/creep.h"
 #include "bags/output_bag.h"
 #include "progress_bar.h"
 #include "recording_help.h"
 #include "recording_reader.h"
 #include "ros/conversions.h"
+#include "scene_doubts.h"
 
 namespace po = boost::program_options;
 using namespace live_stiffness;
@@ -38,19 +39,22 @@ void writeBag(const Recording& recording, const std::vector<Pressures>& channels
 // Fits where base and sensor are from the whole recording, and says how well the model then agrees. False: not determined.
 bool registerRecording(const Recording& recording, const std::vector<Pressures>& channels, const RecordingReader& reader,
                        const std::string& scene_path, const std::string& registration_path) {
-  const StiffnessModel model(loadSceneFile(scene_path), ModelOptions());
+  const StiffnessModel model(loadSceneWithDoubts(scene_path), ModelOptions());
   const ChannelMap map = reader.channels(recording, model.scene());
+  SceneCreep creep(model.scene());
   StiffnessWorkspace workspace = model.makeWorkspace();
   std::vector<Pose> predicted, measured;
   ProgressBar progress("solving " + recording.name, static_cast<long>(channels.size()));
   for (size_t i = 0; i < channels.size(); ++i) {
-    const StiffnessSolution solution = model.solve(map.expand(channels[i]), Wrench::Zero(), workspace);
+    progress.update(static_cast<long>(i) + 1);
+    const Pressures& effective = creep.update(channels[i], recording.samples[i].time);
+    if (recording.samples[i].unchanged_for > 0.0) continue;  // no measurement
+    const StiffnessSolution solution = model.solve(map.expand(effective), Wrench::Zero(), workspace);
     if (!solution.status.ok())
       throw ConfigurationError(recording.name, {"line " + std::to_string(recording.samples[i].line) + ": " +
                                                 model.describe(solution.status)});
     predicted.push_back(solution.X_BT);
     measured.push_back(recording.samples[i].tipPose());
-    progress.update(static_cast<long>(i) + 1);
   }
   const RegistrationFit fit = fitRegistration(predicted, measured, recording.measures);
   const std::string error = "tip error after registration: " + millimetreText(fit.position);

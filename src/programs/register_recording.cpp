@@ -84,6 +84,7 @@ int main(int argc, char** argv) {
     };
     PosePairs pairs = posePairs(scene, channels, chosen(tracker_delay), fit_options.model);
     OrientationCheck check;
+    check.measures = recording.measures.value_or(TrackerMeasures::kPose);
     if (pairs.X_BT.size() >= 3) check = checkOrientations(pairs.X_BT, pairs.X_AS, recording.measures);
     std::string note = check.text().empty() ? "" : check.text() + "\n";
     if (fix_orientation && check.readings.size() == 1) {
@@ -119,6 +120,8 @@ int main(int argc, char** argv) {
       note += " is not measured, and zero in the file; tell the node: tracker_measures: " +
               trackerMeasuresName(check.measures) + "\n";
     }
+    if (result.recordings[0].relative_to_base)
+      note += "the registration is relative to the base sensor: for estimate_wrench; the node has none and cannot use it\n";
     if (check.wrong()) {
       result.recordings[0].determined = false;
       result.recordings[0].verdict = "NOT determined: poses are misread, or told to measure what they do not; see below";

@@ -47,6 +47,8 @@ int main(int argc, char** argv) {
     std::vector<std::string> unknown;
     const NodeParameters parameters =
         readNodeParameters(parameter_options.values(given, InputOptions::file(given)), "options", "", unknown);
+    for (const std::string& key : unknown)
+      if (!isReadByOthers(key)) std::cerr << "warning: parameter " << key << " is not known\n";
     for (const std::string& doubt : doubtsAbout(parameters.scene)) std::cerr << "warning: scene: " << doubt << "\n";
     if (out.empty()) out = std::filesystem::path(bags.front()).replace_extension(".estimates.bag").string();
     std::unique_ptr<ProgressBar> bar;

@@ -42,7 +42,7 @@ RigParameters loadRigParameters(const ros::NodeHandle& private_node) {
   read(kSampleRate, parameters.rate);
   read(kRigTrackerFrame, parameters.tracker_frame);
   read(kRigBaseFrame, parameters.base_frame);
-  read.file(kSceneFile, loadSceneFile, parameters.scene, "must be the path of a file");
+  read.file(kSceneFile, loadSceneFile, parameters.scene, "must be the path of a scene; launch files take it as scene:=FILE");
   read.file(kRigRegistrationFile, loadRegistrationFile, options.registration);
   warnOfUnknown(read.unknown(), "rig_simulator");
   faults.check(kSampleRate, parameters.rate);

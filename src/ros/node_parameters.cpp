@@ -107,7 +107,7 @@ NodeParameters loadNodeParameters(const ros::NodeHandle& private_node) {
 
 void warnOfUnknown(const std::vector<std::string>& keys, const std::string& node) {
   for (const std::string& key : keys)
-    if (key != "exit_without_master" && key != "diagnostic_period")  // runNode() and diagnostic_updater read these
+    if (!isReadByOthers(key))
       ROS_WARN("parameter ~%s is not known to %s", key.c_str(), node.c_str());
 }
 

@@ -86,6 +86,8 @@ NodeParameters loadNodeParameters(const ros::NodeHandle& private_node);
 // included, which dynamic_reconfigure itself lets through.
 NodeParameters reconfigured(NodeParameters parameters, const StiffnessConfig& config);
 
+// Private parameters that are read by others: by runNode() and diagnostic_updater.
+inline bool isReadByOthers(const std::string& key) { return key == "exit_without_master" || key == "diagnostic_period"; }
 // Warns of unknown private parameters in the log.
 void warnOfUnknown(const std::vector<std::string>& keys, const std::string& node);
 

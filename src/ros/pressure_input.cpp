@@ -29,6 +29,8 @@ std::optional<Parsed<Pressures>> PressureInput::read(const topic_tools::ShapeShi
 std::optional<Parsed<Pressures>> PressureInput::accepted(Parsed<Pressures> channels, const std::string& publisher) {
   if (!status_.accept(channels, publisher)) return std::nullopt;
   levels_.add(channels.value);
+  constexpr long kEvery = 20;  // a look at the levels costs more than a message
+  if (first_doubt_.empty() && status_.accepted() % kEvery == 0) first_doubt_ = levels_.doubt();
   return channels;
 }
 
@@ -51,7 +53,11 @@ std::optional<Parsed<Pressures>> PressureInput::readChannel(const sensor_msgs::F
     channels_[static_cast<long>(channel)] = pressure.value;
     arrivals_[channel] = ros::Time::now();
     stamps_[channel] = pressure.stamp;
-    if (!silentChannel().empty()) return std::nullopt;
+    const std::string silent = silentChannel();
+    if (!silent.empty()) {
+      if (first_silence_.empty() && status_.accepted() > 0) first_silence_ = silent;
+      return std::nullopt;
+    }
     all.value = channels_;
     all.stamp = *std::max_element(stamps_.begin(), stamps_.end());
   } else {
@@ -63,7 +69,7 @@ std::optional<Parsed<Pressures>> PressureInput::readChannel(const sensor_msgs::F
 
 void PressureInput::diagnose(const std::string& solver_error, diagnostic_updater::DiagnosticStatusWrapper& status) {
   const std::string silent = silentChannel();
-  status_.diagnose(solver_error, silent.empty() ? "" : ": " + silent, doubt(), status);
+  status_.diagnose(solver_error, silent.empty() ? "" : ": " + silent, levels_.doubt(), status);
 }
 
 }  // namespace live_stiffness

@@ -35,19 +35,22 @@ class PressureInput {
   int channelCount() const { return status_.count(); }
   ArrayStatus& status() { return status_; }
   const ArrayStatus& status() const { return status_; }
-  // What is doubtful about good pressures; empty: nothing.
-  std::string doubt() const { return levels_.doubt(); }
+  // The first thing that was doubtful about good pressures; empty: nothing was.
+  const std::string& firstDoubt() const { return first_doubt_; }
+  // The first topic of a channel that has sent nothing good for ~pressure_timeout_s, and since when; empty: all have.
+  std::string silentChannel() const;
+  // The same of the first time that one was silent, for a report at the end.
+  std::string firstSilence() const { return first_silence_.empty() ? silentChannel() : first_silence_; }
   void diagnose(const std::string& solver_error, diagnostic_updater::DiagnosticStatusWrapper& status);
 
  private:
   std::optional<Parsed<Pressures>> accepted(Parsed<Pressures> channels, const std::string& publisher);
-  // The first topic of a channel that has sent nothing good for ~pressure_timeout_s, and since when; empty: all have.
-  std::string silentChannel() const;
 
   const InputParameters& parameters_;
   std::optional<ChannelMap> channel_map_;  // none: a channel is a chamber
   ArrayStatus status_;
   PressureLevels levels_;
+  std::string first_doubt_, first_silence_;
   Pressures channels_;               // newest of each of ~pressure_topics
   std::vector<ros::Time> arrivals_;  // of the newest good message of each; zero: none since the last bad one
   std::vector<ros::Time> stamps_;    // of the newest message of each

@@ -77,6 +77,10 @@ void TipComparison::diagnoseTracker(diagnostic_updater::DiagnosticStatusWrapper&
 }
 
 void TipComparison::diagnoseContact(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  if (filter_->estimate() == nullptr && !parameters_.is_registered) {
+    status.summary(DiagnosticStatus::WARN, kNotRegistered);
+    return;
+  }
   if (filter_->estimate() == nullptr) {
     status.summary(filter_error_.empty() ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
                    filter_error_.empty() ? "no tracker pose to estimate from" : filter_error_);

@@ -100,6 +100,7 @@ std::string TrackerInput::othersText() const {
 std::vector<std::string> TrackerInput::report() const {
   std::vector<std::string> lines = status_.report();
   if (!others_.empty()) lines.push_back(status_.name() + ": left out other tools: " + othersText());
+  if (!other_error_.empty() && status_.accepted() == 0) lines.push_back(status_.name() + ": " + other_error_);
   if (parameters_.tracker_measures.empty() && finder_.found())
     lines.push_back("the tracker measures " + trackerMeasuresName(*finder_.found()) +
                     " only, by its data; set tracker_measures to say so, or pose if it does not");

@@ -251,6 +251,23 @@ TEST_F(BagReplay, ComparesNothingWithARepeatedPose) {
   EXPECT_LE(replay().tracking_error.count, 40 + 1 + static_cast<int>(kPoseTimeout.standard * kRate));
 }
 
+// One FluidPressure topic a valve, of which one stops.
+TEST_F(BagReplay, NamesASilentValve) {
+  parameters_.pressure_topics = {"valve_1", "valve_2"};
+  parameters_.channel_of_chamber = {0, 0, 0, 1, 1, 1};
+  for (int i = 0; i < 120; ++i)
+    for (int valve : {1, 2}) {
+      sensor_msgs::FluidPressure message;
+      message.header.stamp = stamp(i / kRate);
+      message.fluid_pressure = 1e4;
+      if (valve == 1 || i < 40) bag_.write("/valve_" + std::to_string(valve), stamp(i / kRate), message);
+    }
+  const ReplayReport report = replay();
+  EXPECT_GT(report.stale_estimates, 0);
+  EXPECT_NE(report.text(in_, parameters_).find("valve_2 is silent for 0.5"), std::string::npos)
+      << report.text(in_, parameters_);
+}
+
 TEST_F(BagReplay, LetsAKnownWrenchEndAfterItsTimeout) {
   for (int i = 0; i < 200; ++i) {
     record(i / kRate);

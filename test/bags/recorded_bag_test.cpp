@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "live_stiffness/checks.h"
+#include "ros/conversions.h"
 #include "support/matrix_near.h"
 
 namespace live_stiffness {

@@ -189,6 +189,10 @@ def absolute_kilopascals(event, _):
     return [Event(event.seconds, PRESSURES, Float64MultiArray(data=[1e-3 * (p + ATMOSPHERE) for p in event.message.pressure]))]
 
 
+def absolute(event, _):
+    event.message.pressure = [p + ATMOSPHERE for p in event.message.pressure]
+
+
 def spare_outlets(event, _):
     event.message.pressure = list(event.message.pressure) + [1e3 * k for k in range(9)]
 
@@ -256,7 +260,7 @@ def documented(case, place):
     page = (pathlib.Path(__file__).parents[2] / "docs/troubleshooting.md").read_text()
     patterns = []
     for line in page.split("## What is judged, live and offline")[1].split("\n## ")[0].splitlines():
-        cells = line.split(" | ")
+        cells = line.strip().strip("|").split("|")
         if len(cells) == 3 and "`%s`" % case in cells[0]:
             patterns += [".*".join(map(re.escape, text.split("..."))) for text in re.findall(r"`([^`]+)`", cells[place])]
     return patterns
@@ -294,6 +298,8 @@ BAGS = {
     "millimetres": Case(each(POSE, in_millimetres), {"aurora_position_unit": "mm"}),
     "millimetres_as_metres": Case(each(POSE, in_millimetres)),
     "kilopascals": Case(each(PRESSURES, absolute_kilopascals), {"pressure_unit": "kPa", "pressure_reference": "absolute"}),
+    "absolute_as_gauge": Case(each(PRESSURES, absolute), seconds=5.0),
+    "unregistered": Case(unchanged, {"registration_file": ""}, seconds=5.0),
     "valves": Case(each(PRESSURES, of_valves), VALVES),
     "outlets": Case(each(PRESSURES, spare_outlets), {"channel_of_chamber": [0, 1, 2]}),
     "three_for_six": Case(unchanged, {"scene_file": TWO_SEGMENTS}, seconds=5.0, refused=True),

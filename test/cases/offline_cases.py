@@ -334,6 +334,8 @@ def cases(pressures, poses, late):
     yield replay, "three_for_six", REFUSED + [says("channel_of_chamber")]
     yield replay, "three_for_six_mapped", [PASSED, counts(pressures_accepted=pressures, pressures_rejected=0)]
 
+    yield replay, "absolute_as_gauge", [says("told gauge, sent absolute")]
+    yield replay, "unregistered", [PASSED, says("not registered"), tracking_errors(0, 0)]
     for name in ("two_frames", "two_children", "two_children_the_first_seen"):
         yield from same(name, says("reference_disk"))
         yield replay, name, [PASSED, says("reference_disk"), tracking_errors(poses - 5, poses), no_contact]
