@@ -15,7 +15,7 @@ namespace live_stiffness {
 struct TopicReport {
   std::string name;
   long accepted = 0, rejected = 0, out_of_order = 0;
-  double rate = 0.0;         // of accepted ones at the end, Hz; 0: fewer than two
+  double rate = 0.0;         // of accepted ones without the longest gap, Hz; 0: fewer than three
   double longest_gap = 0.0;  // s
   double gap_start = 0.0;    // from the bag's begin, s
 };

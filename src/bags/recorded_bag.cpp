@@ -22,8 +22,8 @@ struct Seen {
 // What can be used of the topics, by its stamps.
 class Tracks : public BagListener {
  public:
-  Tracks(const InputParameters& parameters, const Scene* scene)
-      : parameters_(parameters), pressure_input(parameters, scene), tracker_input(parameters, registration_) {}
+  explicit Tracks(const InputParameters& parameters)
+      : parameters_(parameters), pressure_input(parameters, nullptr), tracker_input(parameters, registration_) {}
 
   void onPressures(const topic_tools::ShapeShifter& message) override { keep(pressure_input.read(message, "")); }
   void onChannelPressure(const sensor_msgs::FluidPressure& message, size_t channel) override {
@@ -97,7 +97,7 @@ bool isBag(const std::string& path) {
 Recording loadRecordedBags(const std::vector<std::string>& paths, const BagTopics& topics, const InputParameters& parameters,
                            const Scene* scene) {
   constexpr double kHeartbeat = 1.0, kForever = 1e9;  // s
-  Tracks tracks(parameters, scene);
+  Tracks tracks(parameters);
   playBags(paths, topics, parameters, kHeartbeat, tracks);
   Recording recording;
   recording.name = oneLine(paths);

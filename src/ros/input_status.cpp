@@ -37,6 +37,7 @@ std::optional<ros::Time> InputStatus::accept(const ros::Time& stamp, const ros::
     const double blend = rate_ > 0.0 ? 0.1 : 1.0;
     rate_ = 1.0 / ((1.0 - blend) * (rate_ > 0.0 ? 1.0 / rate_ : 0.0) + blend * interval);
   }
+  if (accepted_ == 0) first_accepted_ = now;
   last_accepted_ = now;
   last_stamp_ = stampFor(stamp, now);
   ++accepted_;
@@ -107,6 +108,11 @@ std::string InputStatus::warning() const {
   return "";
 }
 
+double InputStatus::meanRate() const {
+  const double time = secondsBetween(first_accepted_, last_accepted_) - longest_gap_;
+  return accepted_ > 2 && time > 0.0 ? static_cast<double>(accepted_ - 2) / time : 0.0;
+}
+
 std::vector<std::string> InputStatus::report() const {
   std::vector<std::string> lines;
   const auto add = [&](long count, const std::string& what) {
@@ -139,7 +145,7 @@ void InputStatus::restart() {
 bool ArrayStatus::accept(Parsed<Eigen::VectorXd>& parsed, const std::string& publisher) {
   if (parsed.sequence) countLost(publisher, *parsed.sequence);
   const int count = static_cast<int>(parsed.value.size());
-  if (parsed.ok() && count == 0) parsed.error = "no " + settings_.noun + " in the message";
+  if (parsed.ok() && count == 0 && settings_.count == 0) parsed.error = "no " + settings_.noun + " in the message";
   else if (parsed.ok() && settings_.count > 0 && (settings_.spare ? count < settings_.count : count != settings_.count))
     parsed.error = std::to_string(count) + " " + settings_.counted + ": must be " + (settings_.spare ? "at least " : "") +
                    std::to_string(settings_.count) + settings_.hint;

@@ -50,7 +50,7 @@ class InputStatus {
   long accepted() const { return accepted_; }
   long rejected() const { return rejected_; }
   long outOfOrder() const { return out_of_order_; }
-  double rate() const { return rate_; }              // of good messages, 1/s, smoothed
+  double meanRate() const;                           // of good messages without the longest gap, 1/s; 0: too few
   double longestGap() const { return longest_gap_; }  // between the arrivals of two good ones, s
   const ros::Time& gapStart() const { return gap_start_; }
   // What was wrong with messages so far, a line for each kind: for a report at the end.
@@ -70,7 +70,7 @@ class InputStatus {
   double rate_ = 0.0;            // of good messages, 1/s, smoothed
   double foreign_offset_ = 0.0;  // of the newest stamp from ROS time, s; 0: the same clock
   double first_foreign_offset_ = 0.0, longest_gap_ = 0.0;  // s
-  ros::Time gap_start_;
+  ros::Time gap_start_, first_accepted_;
   long accepted_ = 0, rejected_ = 0, out_of_order_ = 0, foreign_ = 0, lost_ = 0, lost_before_ = 0;
   std::string publisher_;  // of the newest numbered message
   uint32_t sequence_ = 0;  // its number

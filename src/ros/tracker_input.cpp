@@ -65,6 +65,7 @@ std::optional<Parsed<Pose>> TrackerInput::accept(const Parsed<TrackedPose>& pars
     error = reachFault(X_AS.p.norm(), (registration_.X_AB.inverse() * X_AS).p.norm(), kInputRemedies);
   }
   if (!error.empty()) {
+    other_error_.clear();
     status_.reject(error);
     return std::nullopt;
   }
@@ -108,10 +109,10 @@ std::vector<std::string> TrackerInput::report() const {
 }
 
 void TrackerInput::diagnose(const std::string& doubt, diagnostic_updater::DiagnosticStatusWrapper& status) {
-  if (!status_.error().empty())
-    status.summary(DiagnosticStatus::WARN, status_.error());
-  else if (!other_error_.empty() && !isFresh())
+  if (!other_error_.empty() && !isFresh())
     status.summary(DiagnosticStatus::WARN, other_error_);
+  else if (!status_.error().empty())
+    status.summary(DiagnosticStatus::WARN, status_.error());
   else if (!status_.hasMessage())
     status.summary(DiagnosticStatus::WARN, "no tracker pose received yet; estimates do not need it");
   else if (status_.age() > parameters_.pose_timeout)

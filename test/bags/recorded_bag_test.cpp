@@ -105,10 +105,13 @@ TEST_F(RecordedBag, WarnsOfUnitsThatNoRobotHas) {
   pressures(10.0, 50.0);  // kPa
   pose(10.1, 20.0);       // mm
   pose(10.2, 50.0);
-  const Recording recording = load();
-  ASSERT_EQ(recording.warnings.size(), 2u);
-  EXPECT_NE(recording.warnings[0].find("moves by 30 m"), std::string::npos) << recording.warnings[0];
-  EXPECT_NE(recording.warnings[1].find("above 50 Pa"), std::string::npos) << recording.warnings[1];
+  bag_.close();
+  EXPECT_NE(refusalOf(path_).find("position is 20 m away"), std::string::npos) << refusalOf(path_);
+  InputParameters parameters;
+  parameters.position_unit = "mm";
+  const Recording recording = loadRecordedBags({path_}, {}, parameters);
+  ASSERT_EQ(recording.warnings.size(), 1u);
+  EXPECT_NE(recording.warnings[0].find("above 50 Pa"), std::string::npos) << recording.warnings[0];
 }
 
 TEST_F(RecordedBag, LeavesOutWhatCannotBeReadAndSaysSo) {
@@ -120,9 +123,10 @@ TEST_F(RecordedBag, LeavesOutWhatCannotBeReadAndSaysSo) {
   const Recording recording = load();
   ASSERT_EQ(recording.samples.size(), 1u);
   EXPECT_FALSE(recording.samples[0].tip_wrench.has_value());
-  ASSERT_EQ(recording.warnings.size(), 2u);
-  EXPECT_NE(recording.warnings[0].find("2 messages left out"), std::string::npos) << recording.warnings[0];
-  EXPECT_NE(recording.warnings[1].find("1 poses left out"), std::string::npos) << recording.warnings[1];
+  ASSERT_EQ(recording.warnings.size(), 3u);
+  EXPECT_NE(recording.warnings[0].find("aurora_pose: 1 cannot be used"), std::string::npos) << recording.warnings[0];
+  EXPECT_NE(recording.warnings[1].find("tip_force_torque: 1 cannot be used"), std::string::npos) << recording.warnings[1];
+  EXPECT_NE(recording.warnings[2].find("1 poses left out"), std::string::npos) << recording.warnings[2];
 }
 
 // What it was recorded with has been killed, or its disk was full.

@@ -9,6 +9,7 @@ import copy
 import math
 import pathlib
 import random
+import re
 import sys
 
 import genpy

@@ -25,7 +25,7 @@ grep -q 'name: "a #1: \[b"' "$dir/out.yaml" || fail "the name of the segment is 
 # A recording at rest does not determine the registration: written, with exit status 1 and the reason.
 arm=$source/config/scenes/stiff_flop_recorded.yaml
 { echo time_s,pressure_1_pa,pressure_2_pa,pressure_3_pa,tip_x_m,tip_y_m,tip_z_m,tip_qw,tip_qx,tip_qy,tip_qz
-  for k in {10..40}; do echo "0.$k,0,0,0,0.01,0.02,0.0585,1,0,0,0"; done; } >"$dir/rest.csv"
+  for k in {10..40}; do echo "0.$k,0,0,0,0.0100$k,0.02,0.0585,1,0,0,0"; done; } >"$dir/rest.csv"
 status=0
 "$register" "$arm" "$dir/rest.csv" "$dir/registration.yaml" >"$dir/verdict" 2>&1 || status=$?
 [ $status = 1 ] || fail "register_recording: status $status instead of 1"

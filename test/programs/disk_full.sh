@@ -36,7 +36,7 @@ fails() {
 
 "$programs/simulate_bag" "$scene" "$work/session.bag" --seconds 60 --channels 3 2>/dev/null
 fails "$disk/out.bag" "$programs/simulate_bag" "$scene" "$disk/out.bag" --seconds 60
-fails "$disk/out.bag" "$programs/replay" "$work/session.bag" --scene "$scene" -o "$disk/out.bag"
+fails "$disk/out.bag" "$programs/replay" "$work/session.bag" --scene "$scene" --channel-of-chamber 0 0 1 1 2 2 -o "$disk/out.bag"
 awk 'BEGIN { print "time_s,pressure_1_pa,pressure_2_pa,pressure_3_pa,tip_x_m,tip_y_m,tip_z_m,tip_qw,tip_qx,tip_qy,tip_qz"
   for (i = 0; i < 4000; ++i) print i / 40 ",1e4,0,0," 1e-6 * i ",0,0.05,1,0,0,0" }' >"$work/recording.csv"
 fails "$disk/recording.bag" "$programs/recording_to_bag" "$work/recording.csv" "$disk/recording.bag"

@@ -102,5 +102,5 @@ for bag in killed cut; do
     [ ! -e "$dir/$bag.estimates.bag" ] && [ ! -e "$dir/none.yaml" ] || fail "$command: something was written"
   done
   rosbag reindex "$dir/$bag.bag" >"$dir/log" 2>&1 || fail "rosbag reindex: $(cat "$dir/log")"
-  "$programs/replay" "$dir/$bag.bag" --scene "$scene" >"$dir/log" 2>&1 || fail "replay of a reindexed bag: $(cat "$dir/log")"
+  "$programs/replay" "$dir/$bag.bag" --scene "$scene" --channel-of-chamber 0 0 1 1 2 2 >"$dir/log" 2>&1 || fail "replay of a reindexed bag: $(cat "$dir/log")"
 done

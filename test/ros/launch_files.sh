@@ -24,7 +24,7 @@ pids+=($!)
 echo "- without a scene"
 for file in stiffness.launch parallel.launch; do
   launch $file
-  within 30 "$file does not name its argument" says $file "~scene_file is missing: must be the path of a file (scene:="
+  within 30 "$file does not name its argument" says $file "~scene_file is missing: must be the path of a scene; launch files take it as scene:="
   stop
 done
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "csv_table.h"
 #include "parameter_reader.h"
 
 namespace live_stiffness {
@@ -78,7 +79,8 @@ TEST(NodeParameters, TextsThatCanMeanNothingElseAreTaken) {
   EXPECT_EQ(faultsOf("channel_of_chamber", "[0, 0", parameters).size(), 1u);
   EXPECT_EQ(faultsOf("channel_of_chamber", "[0, x]", parameters).size(), 1u);
   EXPECT_EQ(faultsOf("accuracy", "1,5", parameters), std::vector<std::string>{
-      "~accuracy = '1,5': must be a number, >= 1e-13 and <= 0.01"});
+      "~accuracy = '1,5': must be a number, >= 1e-13 and <= 0.01" + numberHint("1,5")});
+  EXPECT_NE(numberHint("1,5"), "");
 }
 
 TEST(NodeParameters, TheTrackersFrameIsNoSensor) {
