@@ -13,7 +13,8 @@ namespace live_stiffness {
 namespace {
 
 TopicReport reportOf(const std::string& name, const InputStatus& status, const ros::Time& begin) {
-  TopicReport report{name, status.accepted(), status.rejected(), status.outOfOrder(), status.meanRate(), status.longestGap(), 0.0};
+  TopicReport report{
+      name, status.accepted(), status.rejected(), status.outOfOrder(), status.meanRate(), status.longestGap(), 0.0};
   if (report.longest_gap > 0.0) report.gap_start = secondsBetween(begin, status.gapStart());
   return report;
 }

@@ -8,8 +8,8 @@
 namespace live_stiffness {
 namespace {
 
-constexpr double kNear = 0.08;  // relative, of a level at the pressure of the atmosphere
-constexpr long kEnough = 20;    // messages in a row for that
+constexpr double kNear = 0.08;  // relative, of the lowest pressures to that of the atmosphere
+constexpr long kEnough = 20;    // messages for that
 constexpr long kMoving = 100;   // messages for a judgement of the range
 constexpr double kDrift = 20.0;  // times the mean step: what moves, and is not noise
 
@@ -34,26 +34,23 @@ void PressureLevels::add(PressuresRef gauge) {
   if (last_.size() != gauge.size()) {
     last_ = lowest_ = highest_ = gauge;
     steps_ = 0.0;
-    count_ = atmospheric_ = 0;
+    count_ = 0;
   }
   steps_ += (gauge - last_).cwiseAbs().maxCoeff();
   last_ = gauge;
   lowest_ = lowest_.cwiseMin(gauge);
   highest_ = highest_.cwiseMax(gauge);
   ++count_;
-  const double level = gauge[0] < 0.0 ? -kAtmospherePa : kAtmospherePa;
-  const bool is_atmospheric = ((gauge.array() - level).abs() < kNear * kAtmospherePa).all();
-  atmospheric_ = is_atmospheric ? atmospheric_ + 1 : 0;
 }
 
 std::string PressureLevels::doubt() const {
-  if (atmospheric_ >= kEnough) {
-    const bool above = last_[0] > 0.0;
-    return numberText(1e-3 * last_.mean()) + " kPa in all channels: " +
-           (above ? "told gauge, sent absolute? (pressure_reference: absolute)"
-                  : "told absolute, sent gauge? (pressure_reference: gauge)") + ", or another pressure_unit";
-  }
-  const double largest = count_ > 0 ? std::max(highest_.maxCoeff(), -lowest_.minCoeff()) : 0.0;
+  if (count_ == 0) return "";
+  const double level = lowest_[0] < 0.0 ? -kAtmospherePa : kAtmospherePa;
+  if (count_ >= kEnough && ((lowest_.array() - level).abs() < kNear * kAtmospherePa).all())
+    return numberText(1e-3 * lowest_.mean()) + " kPa in all channels: " +
+           (level > 0.0 ? "told gauge, sent absolute? (pressure_reference: absolute)"
+                        : "told absolute, sent gauge? (pressure_reference: gauge)") + ", or another pressure_unit";
+  const double largest = std::max(highest_.maxCoeff(), -lowest_.minCoeff());
   const bool is_moving = count_ >= kMoving && (highest_ - lowest_).maxCoeff() > kDrift * steps_ / static_cast<double>(count_);
   if (is_moving && largest < 1e-3 * full_range_)
     return "pressures never exceed " + numberText(largest) + " Pa, while the robot is made for some " +

@@ -21,7 +21,7 @@ class PressureLevels {
   double full_range_;
   Pressures last_, lowest_, highest_;
   double steps_ = 0.0;  // sum of the changes of the pressure that changes most, Pa
-  long count_ = 0, atmospheric_ = 0;  // messages; newest ones in a row at the level of the atmosphere
+  long count_ = 0;  // messages
 };
 
 // Pressure in all chambers that would stretch the softest segment of a scene to twice its length, without regard to geometry

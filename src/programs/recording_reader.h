@@ -86,7 +86,7 @@ class RecordingReader {
         is_even = is_even && segment.section.chambers.count() % (scene.chamberCount() / count) == 0;
       }, [](const Link&) {});
     if (!is_even)
-      throw ConfigurationError("channels", {fault + "say which feeds which, such as --channel-of-chamber 0 0 1 1 2 2"});
+      throw ConfigurationError("channel_of_chamber", {fault + "say which feeds which, such as --channel-of-chamber 0 0 1 1 2 2"});
     return ChannelMap::even(count, scene.chamberCount());
   }
 
