@@ -158,7 +158,8 @@ def modulus_as_plain(relative):
 
 def modulus_within_its_error(run):
     modulus, error = modulus_of(run.text)
-    return "" if abs(modulus - 100e3) < 3 * error < 20e3 else "modulus %.0f +- %.0f instead of 100000" % (modulus, error)
+    right = PLAIN["modulus"][0]
+    return "" if abs(modulus - right) < 3 * error < 0.2 * right else "modulus %.0f +- %.0f instead of %.0f" % (modulus, error, right)
 
 
 def modulus_is_true(run):
