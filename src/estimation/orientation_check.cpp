@@ -256,7 +256,6 @@ OrientationCheck checkOrientations(const std::vector<Pose>& X_BT, const std::vec
     check.readings = {{PoseReading::Order::kAsGiven, false, -1, 1}};
   }
   if (check.measures == TrackerMeasures::kPosition) return check;
-
   double predicted_turn = 0.0, measured_turn = 0.0;
   const std::vector<Vector3> v = turns(samples.X_BT, predicted_turn), u = turns(samples.X_AS, measured_turn);
   const auto is_doubtful = [&](double error) { return error > std::max(kLeastTurn, kDoubtful * predicted_turn); };
@@ -282,7 +281,18 @@ OrientationCheck checkOrientations(const std::vector<Pose>& X_BT, const std::vec
     return true;
   };
   const double given = check.rotation_as_given = check.rotation_as_read = error_as_given(check.measures);
-  if (readings_found(check.measures) || (!mirrored && !is_doubtful(given))) return check;
+  if (readings_found(check.measures)) return check;
+  // A mirror across the robot's own axis leaves its orientations as they are; the sensor's offset hides most of the rest.
+  for (int axis = 0; axis < 3 && !mirrored; ++axis) {
+    if (mirror_rms > kBetter * rms || rms - mirror_rms < kLeastDistance * std::sqrt(squares)) break;
+    const Matrix3 R = mirrorAcross(axis) * mirrorAcross(1) * of_mirror.X_AB.R;
+    const double as_read = rotationError(R, samples.X_BT, samples.X_AS, check.measures);
+    if (is_doubtful(as_read)) continue;
+    check.readings = {{PoseReading::Order::kAsGiven, false, -1, axis}};
+    check.position_as_read = mirror_rms;
+    return check;
+  }
+  if (!mirrored && !is_doubtful(given)) return check;
 
   const auto take_as = [&](TrackerMeasures measures, const std::string& reason) {
     check.reason = reason;

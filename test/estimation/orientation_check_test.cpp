@@ -15,8 +15,10 @@ using Order = PoseReading::Order;
 // little by up to `model_error`, relative, and the robot has errors of its own that last for some samples.
 class Simulated {
  public:
-  Simulated(unsigned seed, double model_error) : random_(seed) {
+  // along_y: the axis of the robot is the y axis of the tracker.
+  Simulated(unsigned seed, double model_error, bool along_y = false) : random_(seed) {
     registration_.X_AB = {expSo3(vector(2.0)), vector(0.3)};
+    if (along_y) registration_.X_AB.R = expSo3(-kPi / 2.0 * Vector3::UnitX());
     registration_.X_TS = {expSo3(vector(2.0)), vector(0.008)};
     const double length = uniform(0.04, 0.3), largest = radians(uniform(25.0, 100.0));
     const double gain = uniform(1.0 - model_error, 1.0 + model_error);
@@ -123,6 +125,18 @@ TEST(OrientationCheck, MirroredPositionsAloneAreNamed) {
     EXPECT_EQ(check.measures, TrackerMeasures::kPosition);
     EXPECT_NE(check.text().find("y of the positions negated"), std::string::npos) << check.text();
     EXPECT_NE(check.text().find("channels are swapped"), std::string::npos) << check.text();
+  }
+}
+
+// Orientations stay as they are, and the sensor's offset hides most of what is wrong with the positions.
+TEST(OrientationCheck, AMirrorAcrossTheRobotsOwnAxisIsNamed) {
+  for (unsigned seed = 0; seed < kRobots; ++seed) {
+    const Simulated robot(seed, 0.0, true);
+    std::vector<Pose> mirrored = robot.X_AS;
+    for (Pose& X : mirrored) X.p.y() = -X.p.y();
+    const OrientationCheck check = checkOrientations(robot.X_BT, mirrored);
+    EXPECT_TRUE(check.wrong()) << seed << ": " << check.text();
+    EXPECT_FALSE(checkOrientations(robot.X_BT, robot.X_AS).wrong()) << seed;
   }
 }
 
