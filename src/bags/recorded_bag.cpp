@@ -23,7 +23,7 @@ struct Seen {
 class Tracks : public BagListener {
  public:
   explicit Tracks(const InputParameters& parameters)
-      : parameters_(parameters), pressure_input(parameters, nullptr), tracker_input(parameters, registration_) {}
+      : pressure_input(parameters, nullptr), tracker_input(parameters, registration_) {}
 
   void onPressures(const topic_tools::ShapeShifter& message) override { keep(pressure_input.read(message, "")); }
   void onChannelPressure(const sensor_msgs::FluidPressure& message, size_t channel) override {
@@ -55,7 +55,6 @@ class Tracks : public BagListener {
   std::map<std::string, long> foreign;  // messages of a type that nothing reads
 
  private:
-  const InputParameters& parameters_;
   const Registration registration_;  // not known
 
  public:
