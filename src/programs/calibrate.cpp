@@ -169,13 +169,6 @@ void readAgain(const std::string& path, const Read& read) {
   if (std::filesystem::is_regular_file(path)) read(path);
 }
 
-void writeTable(const std::string& path, const std::string& text) {
-  writeTextFile("output", path, text);
-  readAgain(path, [&](const std::string& file) {
-    if (readTextFile("output", file) != text) throw ConfigurationError("output " + file, {"is not what was written"});
-  });
-}
-
 // Finds what the tracker of a recording measures. Of poses that are misread the positions alone are used; adds what is wrong.
 void judgeOrientations(const Scene& scene, const ChannelMap& channels, const ModelOptions& model, CalibrationRecording& data,
                        std::string& misread) {
@@ -290,8 +283,8 @@ int run(Arguments& a, const po::variables_map& given, const std::string& command
     saveRegistrationFile(a.registration, registration, header);
     readAgain(a.registration, loadRegistrationFile);
   });
-  all_written &= written(a.residuals, [&] { writeTable(a.residuals, residualTable(result, recordings)); });
-  all_written &= written(a.rows, [&] { writeTable(a.rows, complianceTableOf(result)); });
+  all_written &= written(a.residuals, [&] { writeTextFile("output", a.residuals, residualTable(result, recordings)); });
+  all_written &= written(a.rows, [&] { writeTextFile("output", a.rows, complianceTableOf(result)); });
   if (!all_written) return kExitFailed;
   return result.converged && misread.empty() ? kExitOk : kExitPartly;
 }
